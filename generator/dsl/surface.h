@@ -1,0 +1,60 @@
+// A surface: one search, shadow, normal source, shading, output and vertex work, composed.  A search is a drop-in: it
+// changes the offset computation and leaves the rest alone (McGuire and McGuire 2005).
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "generator/dsl/technique.h"
+#include "generator/ir/module.h"
+
+namespace intaglio::dsl {
+
+// The relief's own knobs, shared by every technique of a surface.
+class ReliefKnobs : public Technique {
+  public:
+    Knob<int> packed{this, "packed", 0, at_least{0}, at_most{1},
+                     "1: heights in the alpha channel of normal_map; 0: in the red channel of height_map"};
+    Knob<float> level{this, "level", 0.0f, at_least{0}, at_most{16}, "mip level of height reads"};
+};
+
+struct Surface {
+    std::string name;         // "parallax_occlusion", or the composition as written
+    std::string description;  // sentences with the sources
+    std::unique_ptr<Search> search;
+    std::unique_ptr<Shadow> shadow;
+    std::unique_ptr<NormalSource> normal;
+    std::unique_ptr<Shading> shading;
+    std::unique_ptr<Output> output;
+    std::unique_ptr<VertexWork> vertex;
+    std::unique_ptr<ReliefKnobs> relief = std::make_unique<ReliefKnobs>();
+
+    // All techniques in the order of the work, and all their knobs.
+    std::vector<Technique*> techniques() const;
+    std::vector<KnobBase*> knobs() const;
+    // Sets a knob by name; a sentence with the nearest name if there is none.
+    Status set_knob(std::string_view knob_name, std::string_view value);
+    // "taps = 8" for each knob that this surface's output uses.
+    std::vector<std::string> settings() const;
+};
+
+struct RecordOptions {
+    std::string target;  // whose schedule applies
+    // Overrides of the schedule by loop name ("march" -> Unrolled).
+    std::map<std::string, ir::LoopForm> loop_forms;
+    bool per_vertex = false;  // consent to move affine functions of interpolants to the vertex stage
+};
+
+// Runs the techniques' bodies once and gives both stages as IR.
+Result<ir::Program> record_surface(const Surface& surface, const RecordOptions& options);
+
+// One part of a surface as a function to paste into a shader of one's own:
+//   Search: float3 find(float2 uv, float3 view): displaced coordinate and height
+//   Shadow: float1 visibility(float2 uv, float1 height, float3 light)
+enum class FunctionPart { Search, Shadow };
+Result<ir::Program> record_function(const Surface& surface, FunctionPart part, const RecordOptions& options);
+
+}  // namespace intaglio::dsl

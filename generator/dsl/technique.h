@@ -1,0 +1,124 @@
+// The parts of a surface: search, shadow, normal source, shading, output and vertex work.  Each is a technique: a
+// class with knobs, a body written in the DSL, and a schedule.
+//
+// Conventions (docs/conventions.md): tangent space with z along the normal; V and L are unit vectors from the surface
+// to the eye and to the light; height 1 is the polygon, 0 the deepest point; `scale` is the depth of the relief in
+// texture units.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "generator/dsl/control.h"
+#include "generator/dsl/resources.h"
+#include "generator/dsl/schedule.h"
+
+namespace intaglio::dsl {
+
+class Technique : public KnobOwner {
+  public:
+    virtual ~Technique() = default;
+    Technique(const Technique&) = delete;
+    Technique& operator=(const Technique&) = delete;
+
+    // How its loops are carried out; by default the target decides.
+    virtual void schedule(Schedule&) const {}
+    // Relations between knobs that single ranges cannot say; a sentence if they do not hold.
+    virtual Status check() const { return Done{}; }
+
+  protected:
+    Technique() = default;
+};
+
+// The height field under the polygon and how it is read.
+struct Relief {
+    sampler2D map;
+    bool in_alpha;    // heights in the map's alpha channel (a combined normal and height map), else in red
+    float1 scale;     // depth of the relief in texture units
+    float2 map_size;  // texels
+    float1 level;     // mip level of every height read: fixed, so that reads in loops need no derivatives
+
+    // Height in [0, 1] at a texture coordinate.
+    float1 height(float2 uv, Place place = Place::here()) const { return height_at_level(uv, level, place); }
+    float1 height_at_level(float2 uv, float1 mip_level, Place place = Place::here()) const;
+};
+
+struct Hit {
+    float2 uv;      // displaced texture coordinate
+    float1 height;  // of the relief there, in [0, 1]
+};
+
+// The view ray through the relief: at t in [0, 1] its height is 1 - t.
+struct Ray {
+    float2 uv;     // where it enters, at t = 0
+    float3 view;   // unit vector to the eye
+    float2 reach;  // how far it travels in texture space from top to bottom
+
+    // Below this V.z the ray is as flat as it gets: 89.94 degrees.  Keeps V.xy / V.z finite.
+    static constexpr float least_z = 1.0f / 1024.0f;
+
+    // Written with one division by V.z and no normalize of V.xy, which is 0 / 0 straight down.
+    static Ray through(const Relief& relief, float2 uv, float3 view);
+    float2 at(float1 t) const { return uv - reach * t; }
+};
+
+// How the coordinate changes from pixel to pixel before displacement: the level of every colour and normal read.
+struct Footprint {
+    float2 ddx_uv, ddy_uv;
+};
+
+// What a shading model sees.
+struct Fragment {
+    float3 normal, view, light;  // unit, tangent space
+    float3 albedo;
+    float1 visibility;           // of the light: 0 in shadow, 1 lit
+};
+
+// Where does the view ray meet the relief first?
+class Search : public Technique {
+  public:
+    virtual Hit find(const Relief& relief, const Ray& ray) const = 0;
+};
+
+// How much of the light reaches a point of the relief?
+class Shadow : public Technique {
+  public:
+    virtual float1 visibility(const Relief& relief, const Hit& hit, float3 light) const = 0;
+    // False for a shadow that is always 1: then no light vector is needed for it.
+    virtual bool casts() const { return true; }
+};
+
+class NormalSource : public Technique {
+  public:
+    // Unit normal of the relief in tangent space.
+    virtual float3 normal(const Relief& relief, const Hit& hit, const Footprint& footprint) const = 0;
+};
+
+class Shading : public Technique {
+  public:
+    virtual float3 shade(const Fragment& fragment) const = 0;
+};
+
+class Output : public Technique {
+  public:
+    // Name of the colour target.
+    virtual std::string name() const = 0;
+    // True if the output needs the shaded colour; else only the search is emitted.
+    virtual bool shaded() const = 0;
+    // The value written; `colour` is 0 unless shaded().
+    virtual float4 write(const Hit& hit, float3 colour) const = 0;
+};
+
+// What the vertex stage hands to the pixel stage, before interpolation.
+struct Vertex {
+    float4 position;     // clip space
+    float2 uv;
+    float3 to_eye, to_light;  // tangent space, any length: interpolated, then normalised per pixel
+};
+
+class VertexWork : public Technique {
+  public:
+    virtual Vertex transform() const = 0;
+};
+
+}  // namespace intaglio::dsl

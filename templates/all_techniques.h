@@ -1,0 +1,23 @@
+// The table of Intaglio's own techniques; one function per file of templates/, which gives its row.
+#pragma once
+
+#include "generator/dsl/catalogue.h"
+
+namespace intaglio::templates {
+
+dsl::Entry<dsl::Search> search_none();
+dsl::Entry<dsl::Search> search_parallax_occlusion();
+dsl::Entry<dsl::Search> search_steep_parallax();
+dsl::Entry<dsl::Shadow> shadow_none();
+dsl::Entry<dsl::Shadow> shadow_march();
+dsl::Entry<dsl::Shadow> shadow_fur_depth();
+dsl::Entry<dsl::NormalSource> normal_map();
+dsl::Entry<dsl::Shading> shading_phong();
+dsl::Entry<dsl::Output> output_colour();
+dsl::Entry<dsl::Output> output_displaced();
+dsl::Entry<dsl::VertexWork> vertex_tangent_space();
+
+// The first row of each table is what a composition gets that does not name its part.
+dsl::Catalogue all_techniques();
+
+}  // namespace intaglio::templates
