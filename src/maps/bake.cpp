@@ -1,5 +1,5 @@
-// Slopes by finite differences in double precision; a border texel under Clamp divides by the distance that its two
-// samples really have, so that a plane keeps its slope up to the border.
+// Slopes by finite differences in double precision; a border texel under Clamp divides by the
+// distance that its two samples really have, so that a plane keeps its slope up to the border.
 #include "src/maps/bake.h"
 
 #include <algorithm>
@@ -58,9 +58,10 @@ Slopes slopes_at(const Image& heights, int x, int y, NormalKernel kernel, Wrap w
 Result<Image> bake_normal(const Image& heights, double scale, NormalKernel kernel, Wrap wrap) {
     if (Status sound = check_image(heights); !sound) return sound.error();
     if (!(std::abs(scale) <= largest_scale)) {
-        return input_error("scale-range",
-                           fmt::format("the scale of the relief is a number from -{0} to {0}, not {1}",
-                                       largest_scale, scale));
+        return input_error(
+            "scale-range",
+            fmt::format("the scale of the relief is a number from -{0} to {0}, not {1}",
+                        largest_scale, scale));
     }
     Image normals = blank_image(heights.width, heights.height, 3, heights.bits);
     for (int y = 0; y < heights.height; ++y) {

@@ -46,10 +46,10 @@ Diagnostic cannot_write(const fs::path& path, int error) {
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     std::error_code ignored;
     if (error == ENOENT && !fs::exists(folder, ignored)) {
-        return input_error("file-unwritable",
-                           fmt::format("this file cannot be written: there is no folder {}",
-                                       folder.string()),
-                           path.string());
+        return input_error(
+            "file-unwritable",
+            fmt::format("this file cannot be written: there is no folder {}", folder.string()),
+            path.string());
     }
     if (error == EACCES || error == EPERM) {
         return input_error("file-unwritable", "there is no permission to write this file",

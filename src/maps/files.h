@@ -1,4 +1,5 @@
-// Files read and written whole, with every refusal of the system as a sentence.  Knows nothing of images.
+// Files read and written whole, with every refusal of the system as a sentence.  Knows nothing of
+// images.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +15,10 @@ namespace intaglio::maps {
 // "file-is-directory", "file-unreadable" (permission or any other refusal); `file` names the path.
 Result<std::vector<unsigned char>> read_file(const std::filesystem::path& path, std::size_t limit);
 
-// Writes a file whole or not at all: into a temporary beside it, which is then renamed over it.  A file that already
-// holds exactly these bytes is left untouched, so that its time does not change.  What is neither a file nor a
-// folder (a pipe, a device) is written directly.  Codes: "file-is-directory", "file-unwritable".
+// Writes a file whole or not at all: into a temporary beside it, which is then renamed over it.  A
+// file that already holds exactly these bytes is left untouched, so that its time does not change.
+// What is neither a file nor a folder (a pipe, a device) is written directly.  Codes:
+// "file-is-directory", "file-unwritable".
 Status write_file(const std::filesystem::path& path, std::span<const unsigned char> bytes);
 
 }  // namespace intaglio::maps

@@ -27,7 +27,8 @@ float luminance(const float* rgb) {
     return static_cast<float>(0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]);
 }
 
-// The share of one coarser texel that each finer texel has: its first index and its weights, which sum to 1.
+// The share of one coarser texel that each finer texel has: its first index and its weights, which
+// sum to 1.
 struct Footprint {
     int first = 0;
     std::vector<double> weights;
@@ -87,20 +88,22 @@ Image blank_image(int width, int height, int channels, int bits) {
 
 Status check_size(long long width, long long height) {
     if (width < 1 || height < 1) {
-        return input_error("image-size",
-                           fmt::format("an image of {} x {} texels is empty; the least is 1 x 1",
-                                       width, height));
+        return input_error(
+            "image-size",
+            fmt::format("an image of {} x {} texels is empty; the least is 1 x 1", width, height));
     }
     if (width > largest_side || height > largest_side) {
-        return input_error("image-size",
-                           fmt::format("an image of {} x {} texels is too large; a side has at most {}",
-                                       width, height, largest_side));
+        return input_error(
+            "image-size",
+            fmt::format("an image of {} x {} texels is too large; a side has at most {}", width,
+                        height, largest_side));
     }
     if (static_cast<std::size_t>(width) * static_cast<std::size_t>(height) > largest_area) {
-        return input_error("image-size",
-                           fmt::format("an image of {} x {} texels is too large; it may have at most {} "
-                                       "texels, as 8192 x 8192 has",
-                                       width, height, largest_area));
+        return input_error(
+            "image-size",
+            fmt::format("an image of {} x {} texels is too large; it may have at most {} "
+                        "texels, as 8192 x 8192 has",
+                        width, height, largest_area));
     }
     return Done{};
 }
@@ -114,15 +117,16 @@ Status check_image(const Image& image) {
                            fmt::format("an image has 1 to 4 channels, not {}", image.channels));
     }
     if (image.bits != 8 && image.bits != 16) {
-        return input_error("image-malformed",
-                           fmt::format("an image has 8 or 16 bits per channel, not {}", image.bits));
+        return input_error(
+            "image-malformed",
+            fmt::format("an image has 8 or 16 bits per channel, not {}", image.bits));
     }
     const std::size_t expected = texel_count(image) * static_cast<std::size_t>(image.channels);
     if (image.texels.size() != expected) {
-        return input_error("image-malformed",
-                           fmt::format("an image of {} x {} texels with {} channels has {} values, not {}",
-                                       image.width, image.height, image.channels, expected,
-                                       image.texels.size()));
+        return input_error(
+            "image-malformed",
+            fmt::format("an image of {} x {} texels with {} channels has {} values, not {}",
+                        image.width, image.height, image.channels, expected, image.texels.size()));
     }
     return Done{};
 }
@@ -131,9 +135,10 @@ Result<Image> heights_of(const Image& image, HeightSource source) {
     if (Status sound = check_image(image); !sound) return sound.error();
     const bool has_alpha = image.channels == 2 || image.channels == 4;
     if (source == HeightSource::Alpha && !has_alpha) {
-        return input_error("no-alpha",
-                           fmt::format("the height was asked from alpha, but the image has {} and no alpha",
-                                       image.channels == 1 ? "gray" : "RGB"));
+        return input_error(
+            "no-alpha",
+            fmt::format("the height was asked from alpha, but the image has {} and no alpha",
+                        image.channels == 1 ? "gray" : "RGB"));
     }
     if (source == HeightSource::Automatic) {
         source = alpha_varies(image) ? HeightSource::Alpha : HeightSource::Red;
@@ -157,9 +162,10 @@ Result<Image> with_height_in_alpha(const Image& normals, const Image& heights) {
                                                          normals.channels));
     }
     if (normals.width != heights.width || normals.height != heights.height) {
-        return input_error("image-mismatch",
-                           fmt::format("the normal map has {} x {} texels, but the height map {} x {}",
-                                       normals.width, normals.height, heights.width, heights.height));
+        return input_error(
+            "image-mismatch",
+            fmt::format("the normal map has {} x {} texels, but the height map {} x {}",
+                        normals.width, normals.height, heights.width, heights.height));
     }
     Image combined =
         blank_image(normals.width, normals.height, 4, std::max(normals.bits, heights.bits));

@@ -44,14 +44,17 @@ constexpr Colours moss = {{{0.0f, {0.18f, 0.15f, 0.10f}},
                            {1.0f, {0.60f, 0.62f, 0.40f}}}};
 
 constexpr Maker table[] = {
-    {"bricks", "a running bond of bricks, each a little tilted, over recessed mortar", bricks, brick_red},
+    {"bricks", "a running bond of bricks, each a little tilted, over recessed mortar", bricks,
+     brick_red},
     {"cobbles", "rounded stones of random outline with dark joints", cobbles, granite},
     {"text", "raised letters with narrow slopes; the seed rotates the lines", text, gilded},
-    {"pyramids", "4 x 4 square pyramids whose slopes are planes; the seed changes nothing", pyramids,
-     sandstone},
+    {"pyramids", "4 x 4 square pyramids whose slopes are planes; the seed changes nothing",
+     pyramids, sandstone},
     {"fur", "dense hairs about 3 texels thick, of random length", fur, fox},
-    {"spikes", "one-texel spikes of full height on a flat floor, one in each 8 x 8 texels", spikes, steel},
-    {"steps", "a staircase of 8 steps along u with a wall of full height at the seam", steps, sandstone},
+    {"spikes", "one-texel spikes of full height on a flat floor, one in each 8 x 8 texels", spikes,
+     steel},
+    {"steps", "a staircase of 8 steps along u with a wall of full height at the seam", steps,
+     sandstone},
     {"noise", "value noise of four octaves", noise, moss},
     {"smooth", "a sum of four sine waves, without any detail", smooth, sandstone},
     {"flat0", "height 0 everywhere: the deepest floor", flat_0, steel},
@@ -83,9 +86,9 @@ Result<const Maker*> find_maker(std::string_view name) {
         if (edits_between(name, maker.name) < edits_between(name, nearest->name)) nearest = &maker;
         names += fmt::format("{}{}", names.empty() ? "" : ", ", maker.name);
     }
-    Diagnostic unknown =
-        input_error("unknown-map", fmt::format("there is no procedural map \"{}\"; did you mean {}?",
-                                               name, nearest->name));
+    Diagnostic unknown = input_error(
+        "unknown-map",
+        fmt::format("there is no procedural map \"{}\"; did you mean {}?", name, nearest->name));
     unknown.notes.push_back("hint: the procedural maps are " + names);
     return unknown;
 }
@@ -95,8 +98,7 @@ std::array<float, 3> colour_at(const Colours& colours, float height) {
     while (upper + 1 < colours.size() && colours[upper].height < height) ++upper;
     const ColourStop& below = colours[upper - 1];
     const ColourStop& above = colours[upper];
-    const float t =
-        std::clamp((height - below.height) / (above.height - below.height), 0.0f, 1.0f);
+    const float t = std::clamp((height - below.height) / (above.height - below.height), 0.0f, 1.0f);
     std::array<float, 3> colour{};
     for (std::size_t c = 0; c < 3; ++c) {
         colour[c] = below.rgb[c] + (above.rgb[c] - below.rgb[c]) * t;

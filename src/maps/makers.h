@@ -1,5 +1,6 @@
-// Procedural height maps for tests, examples and anyone without art: a table of named patterns, each with colours to
-// match.  All tile with repeat wrapping, take any size that check_size accepts, and are the same on every machine.
+// Procedural height maps for tests, examples and anyone without art: a table of named patterns,
+// each with colours to match.  All tile with repeat wrapping, take any size that check_size
+// accepts, and are the same on every machine.
 #pragma once
 
 #include <array>
@@ -31,8 +32,8 @@ std::span<const Maker> makers();
 // The map of the maker of this name.  Codes: "unknown-map", with the nearest name; "image-size".
 Result<Image> make_height_map(std::string_view name, int width, int height, std::uint32_t seed);
 
-// RGB of 8 bits for a map of that maker: its colours by height, with a little grain.  Codes: "unknown-map",
-// "image-malformed".
+// RGB of 8 bits for a map of that maker: its colours by height, with a little grain.  Codes:
+// "unknown-map", "image-malformed".
 Result<Image> make_colour_map(std::string_view name, const Image& heights);
 
 }  // namespace intaglio::maps

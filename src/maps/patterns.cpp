@@ -1,5 +1,5 @@
-// The patterns.  Most are functions of (u, v) sampled at texel centres, periodic in both; fur and spikes are laid out in
-// texels, because a hair or a spike is as thin as a texel at any size.
+// The patterns.  Most are functions of (u, v) sampled at texel centres, periodic in both; fur and
+// spikes are laid out in texels, because a hair or a spike is as thin as a texel at any size.
 #include "src/maps/patterns.h"
 
 #include <algorithm>
@@ -10,7 +10,8 @@
 namespace intaglio::maps {
 namespace {
 
-// Multiply and shift; the constants are those of lowbias32 (Chris Wellons, "Prospecting for Hash Functions", 2018).
+// Multiply and shift; the constants are those of lowbias32 (Chris Wellons, "Prospecting for Hash
+// Functions", 2018).
 std::uint32_t mixed(std::uint32_t x) {
     x ^= x >> 16;
     x *= 0x7feb352dU;
@@ -57,12 +58,12 @@ Image by_texel(int width, int height, const Height& height_at) {
 
 template <typename Height>
 Image by_position(int width, int height, const Height& height_at) {
-    return by_texel(width, height, [&](int x, int y) {
-        return height_at((x + 0.5) / width, (y + 0.5) / height);
-    });
+    return by_texel(width, height,
+                    [&](int x, int y) { return height_at((x + 0.5) / width, (y + 0.5) / height); });
 }
 
-// Value noise: random heights on a lattice of cells x cells, blended by the quintic of Perlin's "Improving Noise" (2002).
+// Value noise: random heights on a lattice of cells x cells, blended by the quintic of Perlin's
+// "Improving Noise" (2002).
 double value_noise(double u, double v, int cells, std::uint32_t seed) {
     const auto fade = [](double t) { return t * t * t * (t * (t * 6 - 15) + 10); };
     const int x = static_cast<int>(std::floor(u * cells));
@@ -86,7 +87,8 @@ double fractal_noise(double u, double v, int cells, std::uint32_t seed) {
     return sum;
 }
 
-// Worley's cellular texture (SIGGRAPH 1996): distances to the nearest two of one random point per cell.
+// Worley's cellular texture (SIGGRAPH 1996): distances to the nearest two of one random point per
+// cell.
 struct Cells {
     double nearest = 1e9;
     double second = 1e9;
@@ -122,15 +124,23 @@ struct Glyph {
     std::array<std::uint8_t, 7> rows;
 };
 constexpr Glyph glyphs[] = {
-    {'A', {0x0e, 0x11, 0x11, 0x1f, 0x11, 0x11, 0x11}}, {'C', {0x0e, 0x11, 0x10, 0x10, 0x10, 0x11, 0x0e}},
-    {'E', {0x1f, 0x10, 0x10, 0x1e, 0x10, 0x10, 0x1f}}, {'F', {0x1f, 0x10, 0x10, 0x1e, 0x10, 0x10, 0x10}},
-    {'G', {0x0e, 0x11, 0x10, 0x17, 0x11, 0x11, 0x0f}}, {'I', {0x0e, 0x04, 0x04, 0x04, 0x04, 0x04, 0x0e}},
-    {'L', {0x10, 0x10, 0x10, 0x10, 0x10, 0x10, 0x1f}}, {'N', {0x11, 0x19, 0x15, 0x13, 0x11, 0x11, 0x11}},
-    {'O', {0x0e, 0x11, 0x11, 0x11, 0x11, 0x11, 0x0e}}, {'R', {0x1e, 0x11, 0x11, 0x1e, 0x14, 0x12, 0x11}},
-    {'S', {0x0f, 0x10, 0x10, 0x0e, 0x01, 0x01, 0x1e}}, {'T', {0x1f, 0x04, 0x04, 0x04, 0x04, 0x04, 0x04}},
-    {'U', {0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0x0e}}, {'V', {0x11, 0x11, 0x11, 0x11, 0x11, 0x0a, 0x04}},
+    {'A', {0x0e, 0x11, 0x11, 0x1f, 0x11, 0x11, 0x11}},
+    {'C', {0x0e, 0x11, 0x10, 0x10, 0x10, 0x11, 0x0e}},
+    {'E', {0x1f, 0x10, 0x10, 0x1e, 0x10, 0x10, 0x1f}},
+    {'F', {0x1f, 0x10, 0x10, 0x1e, 0x10, 0x10, 0x10}},
+    {'G', {0x0e, 0x11, 0x10, 0x17, 0x11, 0x11, 0x0f}},
+    {'I', {0x0e, 0x04, 0x04, 0x04, 0x04, 0x04, 0x0e}},
+    {'L', {0x10, 0x10, 0x10, 0x10, 0x10, 0x10, 0x1f}},
+    {'N', {0x11, 0x19, 0x15, 0x13, 0x11, 0x11, 0x11}},
+    {'O', {0x0e, 0x11, 0x11, 0x11, 0x11, 0x11, 0x0e}},
+    {'R', {0x1e, 0x11, 0x11, 0x1e, 0x14, 0x12, 0x11}},
+    {'S', {0x0f, 0x10, 0x10, 0x0e, 0x01, 0x01, 0x1e}},
+    {'T', {0x1f, 0x04, 0x04, 0x04, 0x04, 0x04, 0x04}},
+    {'U', {0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0x0e}},
+    {'V', {0x11, 0x11, 0x11, 0x11, 0x11, 0x0a, 0x04}},
 };
-// Eight letters to a line, six columns and eight rows of dots to a letter: 48 x 48 square dots in all.
+// Eight letters to a line, six columns and eight rows of dots to a letter: 48 x 48 square dots in
+// all.
 constexpr std::array<std::string_view, 6> lines = {"INTAGLIO", "RELIEF  ", "SURFACES",
                                                    "  CARVE ", "INTAGLIO", " FUR ART"};
 constexpr int dots = 48;
@@ -166,8 +176,7 @@ Image bricks(int width, int height, std::uint32_t seed) {
         const double s = along - column;
         const double t = v * rows - row;
         // In texture units, so that joints are as wide across as along.
-        const double from_edge =
-            std::min(std::min(s, 1 - s) / columns, std::min(t, 1 - t) / rows);
+        const double from_edge = std::min(std::min(s, 1 - s) / columns, std::min(t, 1 - t) / rows);
         const int brick = column % columns;
         const auto random = [&](std::uint32_t purpose) {
             return random_unit(seed, brick, row, purpose) - 0.5;
@@ -192,7 +201,8 @@ Image cobbles(int width, int height, std::uint32_t seed) {
 
 Image text(int width, int height, std::uint32_t seed) {
     return by_position(width, height, [seed](double u, double v) {
-        // Bilinear between dots, then steepened: raised letters with narrow slopes instead of sheer walls.
+        // Bilinear between dots, then steepened: raised letters with narrow slopes instead of sheer
+        // walls.
         const double x = u * dots - 0.5;
         const double y = v * dots - 0.5;
         const int column = static_cast<int>(std::floor(x));
@@ -201,8 +211,8 @@ Image text(int width, int height, std::uint32_t seed) {
             return dot_is_set(wrapped(column + i, dots), wrapped(row + j, dots), seed) ? 1.0 : 0.0;
         };
         const double s = x - column;
-        const double cover = blend(blend(dot(0, 0), dot(1, 0), s), blend(dot(0, 1), dot(1, 1), s),
-                                   y - row);
+        const double cover =
+            blend(blend(dot(0, 0), dot(1, 0), s), blend(dot(0, 1), dot(1, 1), s), y - row);
         return blend(0.15, 0.95, smooth_step((cover - 0.3) / 0.4));
     });
 }

@@ -1,5 +1,6 @@
-// The height patterns behind the makers, and the arithmetic they share.  Everything here is integers, + - * / and square
-// root in double, which every compiler and C library computes alike: the maps are the same on every machine.
+// The height patterns behind the makers, and the arithmetic they share.  Everything here is
+// integers, + - * / and square root in double, which every compiler and C library computes alike:
+// the maps are the same on every machine.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +9,8 @@
 
 namespace intaglio::maps {
 
-// Each fills a map of the given size with heights; the sentences in makers.cpp say what they look like.
+// Each fills a map of the given size with heights; the sentences in makers.cpp say what they look
+// like.
 Image bricks(int width, int height, std::uint32_t seed);
 Image cobbles(int width, int height, std::uint32_t seed);
 Image text(int width, int height, std::uint32_t seed);

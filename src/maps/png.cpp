@@ -1,5 +1,6 @@
-// The three steps of reading: is this a PNG at all, which layout shall libspng deliver, integers to floats.
-// Source: PNG specification, second edition (ISO/IEC 15948); https://libspng.org/docs for the formats.
+// The three steps of reading: is this a PNG at all, which layout shall libspng deliver, integers to
+// floats. Source: PNG specification, second edition (ISO/IEC 15948); https://libspng.org/docs for
+// the formats.
 #include "src/maps/png.h"
 
 #include <spng.h>
@@ -25,12 +26,15 @@ namespace {
 
 using namespace std::string_view_literals;
 
-// No PNG of at most largest_area RGBA texels of 16 bits needs more, even stored without compression.
+// No PNG of at most largest_area RGBA texels of 16 bits needs more, even stored without
+// compression.
 constexpr std::size_t largest_file = std::size_t{1} << 30;
 // Text, profiles and other chunks that no map needs: bounded, because they may unpack to any size.
 constexpr std::size_t largest_chunk = std::size_t{1} << 26;
 
-constexpr std::string_view png_signature("\x89PNG\r\n\x1a\n", 8);
+constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n"sv;
+// The last chunk of every PNG, with its length before and its checksum after the name.
+constexpr std::string_view png_end = "\0\0\0\0IEND\xae\x42\x60\x82"sv;
 
 struct FreeContext {
     void operator()(spng_ctx* context) const { spng_ctx_free(context); }
@@ -46,11 +50,11 @@ struct KnownStart {
     std::string_view name;
 };
 constexpr KnownStart known_starts[] = {
-    {"\xff\xd8\xff"sv, "a JPEG"},  {"GIF8"sv, "a GIF"},      {"BM"sv, "a BMP"},
-    {"DDS "sv, "a DDS texture"},    {"II*\0"sv, "a TIFF"},    {"MM\0*"sv, "a TIFF"},
+    {"\xff\xd8\xff"sv, "a JPEG"},   {"GIF8"sv, "a GIF"},       {"BM"sv, "a BMP"},
+    {"DDS "sv, "a DDS texture"},    {"II*\0"sv, "a TIFF"},     {"MM\0*"sv, "a TIFF"},
     {"RIFF"sv, "a WebP"},           {"8BPS"sv, "a Photoshop"}, {"\x76\x2f\x31\x01"sv, "an OpenEXR"},
-    {"#?RADIANCE"sv, "a Radiance"}, {"\xabKTX"sv, "a KTX"},   {"PK\x03\x04"sv, "a zip"},
-    {"\x1f\x8b"sv, "a gzip"},       {"%PDF"sv, "a PDF"},      {"<svg"sv, "an SVG"},
+    {"#?RADIANCE"sv, "a Radiance"}, {"\xabKTX"sv, "a KTX"},    {"PK\x03\x04"sv, "a zip"},
+    {"\x1f\x8b"sv, "a gzip"},       {"%PDF"sv, "a PDF"},       {"<svg"sv, "an SVG"},
 };
 
 bool looks_like_text(std::string_view start) {
@@ -69,8 +73,7 @@ std::string what_it_seems(std::string_view start) {
             return fmt::format("it seems to be {} file", known.name);
         }
     }
-    return text ? "it seems to be a text file"
-                : "its first bytes are not those of any known image";
+    return text ? "it seems to be a text file" : "its first bytes are not those of any known image";
 }
 
 Status check_signature(std::span<const unsigned char> bytes) {
@@ -82,7 +85,8 @@ Status check_signature(std::span<const unsigned char> bytes) {
         return input_error("png-truncated",
                            fmt::format("this PNG is cut off after {} bytes", start.size()));
     }
-    return input_error("not-a-png", fmt::format("this file is not a PNG: {}", what_it_seems(start)));
+    return input_error("not-a-png",
+                       fmt::format("this file is not a PNG: {}", what_it_seems(start)));
 }
 
 Diagnostic decoding_error(int error) {
@@ -93,8 +97,7 @@ Diagnostic decoding_error(int error) {
             return input_error("png-truncated", "this PNG is cut off before its end");
         case SPNG_ECHUNK_CRC:
             return input_error("png-corrupt", "this PNG is damaged: a checksum does not match");
-        case SPNG_EMEM:
-            return input_error("image-size", "there is not enough memory for this PNG");
+        case SPNG_EMEM: return input_error("image-size", "there is not enough memory for this PNG");
         default:
             return input_error("png-corrupt",
                                fmt::format("this PNG is damaged: {}", spng_strerror(error)));
@@ -109,7 +112,8 @@ struct Layout {
     int delivered = 1;
 };
 
-// libspng has no gray-with-transparent-colour output for every depth, so those come as RGBA and keep red and alpha.
+// libspng has no gray-with-transparent-colour output for every depth, so those come as RGBA and
+// keep red and alpha.
 Layout layout_of(const spng_ihdr& header, bool transparent) {
     Layout layout;
     layout.bits = header.bit_depth == 16 ? 16 : 8;
@@ -141,7 +145,8 @@ Result<Image> decode(spng_ctx* context) {
     spng_ihdr header{};
     if (const int error = spng_get_ihdr(context, &header)) return decoding_error(error);
     if (Status size = check_size(header.width, header.height); !size) return size.error();
-    // A chunk that comes too late or not at all is not an error here; a damaged one shows again below.
+    // A chunk that comes too late or not at all is not an error here; a damaged one shows again
+    // below.
     spng_trns transparency{};
     const int found = spng_get_trns(context, &transparency);
     if (found != 0 && found != SPNG_ECHUNKAVAIL) return decoding_error(found);
@@ -158,17 +163,16 @@ Result<Image> decode(spng_ctx* context) {
     }
     if (const int error = spng_decode_chunks(context)) return decoding_error(error);
 
-    Image image =
-        blank_image(static_cast<int>(header.width), static_cast<int>(header.height),
-                    static_cast<int>(layout.channels.size()), layout.bits);
+    Image image = blank_image(static_cast<int>(header.width), static_cast<int>(header.height),
+                              static_cast<int>(layout.channels.size()), layout.bits);
     const std::size_t count = image.texels.size() / layout.channels.size();
     float* texel = image.texels.data();
     for (std::size_t i = 0; i < count; ++i) {
         for (const int channel : layout.channels) {
-            *texel++ = texel_value(raw.data(),
-                                   i * static_cast<std::size_t>(layout.delivered) +
-                                       static_cast<std::size_t>(channel),
-                                   layout.bits);
+            *texel++ = texel_value(
+                raw.data(),
+                i * static_cast<std::size_t>(layout.delivered) + static_cast<std::size_t>(channel),
+                layout.bits);
         }
     }
     return image;
@@ -206,12 +210,20 @@ Result<Image> decode_png(std::span<const unsigned char> bytes) {
     if (Status signature = check_signature(bytes); !signature) return signature.error();
     const Context context(spng_ctx_new(0));
     if (!context) return internal_error("png-library", "the PNG library could not be started");
-    // libspng's default silently drops an ancillary chunk with a wrong checksum: with tRNS, the heights would go.
+    // libspng's default silently drops an ancillary chunk with a wrong checksum: with tRNS, the
+    // heights would go.
     spng_set_crc_action(context.get(), SPNG_CRC_ERROR, SPNG_CRC_ERROR);
     spng_set_chunk_limits(context.get(), largest_chunk, largest_chunk);
     spng_set_png_buffer(context.get(), bytes.data(), bytes.size());
     try {
-        return decode(context.get());
+        Result<Image> image = decode(context.get());
+        // libspng lets the last checksum be missing; whoever copies a file wants to know that it
+        // was cut.
+        const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        if (image.ok() && content.rfind(png_end) == std::string_view::npos) {
+            return decoding_error(SPNG_EOF);
+        }
+        return image;
     } catch (const std::bad_alloc&) {
         return decoding_error(SPNG_EMEM);
     }
@@ -241,9 +253,9 @@ Result<std::vector<unsigned char>> encode_png(const Image& image) {
     std::unique_ptr<void, FreeBuffer> buffer;
     if (error == 0) buffer.reset(spng_get_png_buffer(context.get(), &size, &error));
     if (error != 0 || !buffer) {
-        return internal_error("png-library",
-                              fmt::format("the PNG library could not write this image: {}",
-                                          spng_strerror(error)));
+        return internal_error(
+            "png-library",
+            fmt::format("the PNG library could not write this image: {}", spng_strerror(error)));
     }
     const auto* first = static_cast<const unsigned char*>(buffer.get());
     return std::vector<unsigned char>(first, first + size);
