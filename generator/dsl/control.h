@@ -72,8 +72,9 @@ class Loop {
     struct End {};
     class Iterator {
       public:
-        explicit Iterator(const Loop& loop)
-            : loop_(&loop), index_(Recorder::current().begin_loop(loop, {loop.name(), loop.trip_count(), {}, {}})) {}
+        Iterator(const Loop& loop, Place place)
+            : loop_(&loop),
+              index_(Recorder::current().begin_loop(loop, {loop.name(), loop.trip_count(), {}, {}}, place)) {}
         int1 operator*() const { return int1::of(index_); }
         bool operator!=(End) const { return open_; }
         void operator++() {
@@ -86,7 +87,7 @@ class Loop {
         ir::ValueId index_;
         bool open_ = true;
     };
-    Iterator begin() const { return Iterator(*this); }
+    Iterator begin(Place place = Place::here()) const { return {*this, place}; }
     End end() const { return {}; }
 
   private:

@@ -85,7 +85,8 @@ void Recorder::name_all(const std::vector<VariableSlot*>& variables, const std::
     for (std::size_t i = 0; i < variables.size(); ++i) name_value(values[i], variables[i]->name);
 }
 
-ir::ValueId Recorder::begin_loop(const Loop& loop, ir::LoopInfo loop_info) {
+ir::ValueId Recorder::begin_loop(const Loop& loop, ir::LoopInfo loop_info, Place place) {
+    locate(place);
     if (const auto directive = directives_.find(&loop); directive != directives_.end()) {
         loop_info.form = directive->second.form;
         loop_info.closed_form = directive->second.closed_form;
@@ -93,7 +94,7 @@ ir::ValueId Recorder::begin_loop(const Loop& loop, ir::LoopInfo loop_info) {
     if (const auto override_ = overrides_.find(loop_info.name); override_ != overrides_.end())
         loop_info.form = override_->second;
     loop_names_.push_back(loop_info.name);
-    Scope scope{&loop, variables_, current_values(variables_)};
+    Scope scope{&loop, place, variables_, current_values(variables_)};
     const ir::Builder::LoopScope opened = builder_.begin_loop(std::move(loop_info), scope.before);
     name_value(opened.index, "i");
     name_all(scope.variables, opened.carried);
@@ -122,12 +123,13 @@ void Recorder::end_loop(const Loop& loop) {
     const Scope scope = std::move(scopes_.back());
     scopes_.pop_back();
     const std::vector<ir::ValueId> results = builder_.end_loop(current_values(scope.variables));
+    locate(scope.place);
     name_all(scope.variables, results);
     rebind(scope.variables, results);
 }
 
 void Recorder::begin_if(ir::ValueId condition) {
-    scopes_.push_back({nullptr, variables_, current_values(variables_)});
+    scopes_.push_back({nullptr, {}, variables_, current_values(variables_)});
     builder_.begin_if(condition);
 }
 

@@ -51,7 +51,7 @@ class Recorder {
     void add_variable(VariableSlot* variable);
     void remove_variable(VariableSlot* variable);
 
-    ir::ValueId begin_loop(const Loop& loop, ir::LoopInfo info);
+    ir::ValueId begin_loop(const Loop& loop, ir::LoopInfo info, Place place);
     void break_if(const Loop& loop, ir::ValueId condition, Place place);
     void end_loop(const Loop& loop);
 
@@ -72,6 +72,7 @@ class Recorder {
   private:
     struct Scope {                    // an open loop or if
         const Loop* loop = nullptr;   // nullptr: an if
+        Place place;
         std::vector<VariableSlot*> variables;
         std::vector<ir::ValueId> before;
     };

@@ -34,15 +34,10 @@ bool apply_schedules(const Surface& surface, const RecordOptions& options, Recor
     return schedule.moves_to_vertex() || options.per_vertex;
 }
 
-float3 shade(const Surface& surface, const Relief& relief, const Hit& hit, float2 uv, float3 view) {
-    const float3 light = unit_input("to_light", "light");
-    const Footprint footprint{let("ddx_uv", ddx(uv)), let("ddy_uv", ddy(uv))};
-    float1 visibility = 1.0f;
-    if (surface.shadow->casts()) {
-        Step step("shadow", "How much of the light reaches the point we see?");
-        visibility = let("visibility", surface.shadow->visibility(relief, hit, light));
-    }
+float3 shade(const Surface& surface, const Relief& relief, const Hit& hit, float2 uv, float3 view, float3 light,
+             float1 visibility) {
     Step step("shading", "Shade the point with its own normal and colour, read where the ray met the relief.");
+    const Footprint footprint{let("ddx_uv", ddx(uv)), let("ddy_uv", ddy(uv))};
     const float3 normal = let("normal", surface.normal->normal(relief, hit, footprint));
     const sampler2D colour_map("colour_map", "albedo");
     const float3 albedo = let("albedo", colour_map.sample_grad(hit.uv, footprint.ddx_uv, footprint.ddy_uv).xyz());
@@ -61,9 +56,15 @@ Status record_pixel(const Surface& surface, const RecordOptions& options, ir::Pr
         return surface.search->find(relief, Ray::through(relief, uv, view));
     };
     const Hit hit = search();
-    const float3 colour = surface.output->shaded() ? shade(surface, relief, hit, uv, view) : float3(0.0f);
-    Step step("output", "");
-    const float4 value = let(surface.output->name(), surface.output->write(hit, colour));
+    const float3 light = unit_input("to_light", "light");
+    const auto shadow = [&] {
+        Step step("shadow", "How much of the light reaches the point we see?");
+        return let("visibility", surface.shadow->visibility(relief, hit, light));
+    };
+    const float1 visibility = shadow();
+    const float3 colour =
+        surface.output->shaded() ? shade(surface, relief, hit, uv, view, light, visibility) : float3(0.0f);
+    const float4 value = let(surface.output->name(), surface.output->write(hit, visibility, colour));
     program.pixel.outputs = {{surface.output->name(), ir::float4, ir::Semantic::Target}};
     return recorder.finish({value.id()});
 }
@@ -81,11 +82,11 @@ Status record_vertex(const Surface& surface, ir::Program& program) {
 }  // namespace
 
 std::vector<Technique*> Surface::techniques() const {
-    std::vector<Technique*> all = {vertex.get(), relief.get(), search.get()};
-    if (output->shaded())
-        for (Technique* technique : {static_cast<Technique*>(shadow.get()), static_cast<Technique*>(normal.get()),
-                                     static_cast<Technique*>(shading.get())})
-            all.push_back(technique);
+    std::vector<Technique*> all = {vertex.get(), relief.get(), search.get(), shadow.get()};
+    if (output->shaded()) {
+        all.push_back(normal.get());
+        all.push_back(shading.get());
+    }
     all.push_back(output.get());
     return all;
 }

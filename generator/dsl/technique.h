@@ -84,8 +84,6 @@ class Search : public Technique {
 class Shadow : public Technique {
   public:
     virtual float1 visibility(const Relief& relief, const Hit& hit, float3 light) const = 0;
-    // False for a shadow that is always 1: then no light vector is needed for it.
-    virtual bool casts() const { return true; }
 };
 
 class NormalSource : public Technique {
@@ -103,10 +101,10 @@ class Output : public Technique {
   public:
     // Name of the colour target.
     virtual std::string name() const = 0;
-    // True if the output needs the shaded colour; else only the search is emitted.
+    // True if the output needs the shaded colour; else only search and shadow are emitted.
     virtual bool shaded() const = 0;
     // The value written; `colour` is 0 unless shaded().
-    virtual float4 write(const Hit& hit, float3 colour) const = 0;
+    virtual float4 write(const Hit& hit, float1 visibility, float3 colour) const = 0;
 };
 
 // What the vertex stage hands to the pixel stage, before interpolation.

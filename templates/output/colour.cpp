@@ -10,7 +10,7 @@ class Colour : public Output {
   public:
     std::string name() const override { return "colour"; }
     bool shaded() const override { return true; }
-    float4 write(const Hit&, float3 colour) const override { return {colour, 1.0f}; }
+    float4 write(const Hit&, float1, float3 colour) const override { return {colour, 1.0f}; }
 };
 
 }  // namespace

@@ -9,7 +9,6 @@ using namespace dsl;
 class None : public Shadow {
   public:
     float1 visibility(const Relief&, const Hit&, float3) const override { return 1.0f; }
-    bool casts() const override { return false; }
 };
 
 }  // namespace

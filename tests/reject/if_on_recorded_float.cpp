@@ -1,0 +1,11 @@
+// A recorded number has no truth while generating.
+#include "generator/dsl/control.h"
+using namespace intaglio::dsl;
+
+void body([[maybe_unused]] float1 x, [[maybe_unused]] float3 v, [[maybe_unused]] int1 i) {
+#ifdef RIGHT
+    If(x != 0.0f, [] {});
+#else
+    if (x) {}
+#endif
+}

@@ -1,0 +1,11 @@
+# cmake -DCOMPILER=... -DCASE=file.cpp -DROOT=... -P must_not_compile.cmake
+set(command ${COMPILER} -std=c++20 -fsyntax-only -I${ROOT} ${CASE})
+execute_process(COMMAND ${command} -DRIGHT RESULT_VARIABLE right_result ERROR_VARIABLE right_errors)
+if(NOT right_result EQUAL 0)
+  message(FATAL_ERROR "the right form must compile, and does not:\n${right_errors}")
+endif()
+execute_process(COMMAND ${command} RESULT_VARIABLE wrong_result ERROR_VARIABLE wrong_errors)
+if(wrong_result EQUAL 0)
+  message(FATAL_ERROR "the wrong form must not compile, and does")
+endif()
+message(STATUS "refused:\n${wrong_errors}")

@@ -1,0 +1,11 @@
+// A recorded number has no value while generating.
+#include "generator/dsl/control.h"
+using namespace intaglio::dsl;
+
+void body([[maybe_unused]] float1 x, [[maybe_unused]] float3 v, [[maybe_unused]] int1 i) {
+#ifdef RIGHT
+    [[maybe_unused]] const float1 y = x;
+#else
+    [[maybe_unused]] const float y = x;
+#endif
+}

@@ -1,0 +1,11 @@
+// Vectors of different widths do not add.
+#include "generator/dsl/control.h"
+using namespace intaglio::dsl;
+
+void body([[maybe_unused]] float1 x, [[maybe_unused]] float3 v, [[maybe_unused]] int1 i) {
+#ifdef RIGHT
+    [[maybe_unused]] const float3 y = v + v;
+#else
+    [[maybe_unused]] const float3 y = v + v.xy();
+#endif
+}
