@@ -1,0 +1,36 @@
+// A texture as the runner takes it: RGBA floats with their mip levels, the format they are stored
+// in on the device, and how they are sampled.  Formats are the witness: RGBA8 is filtered by
+// lavapipe with 8-bit weights, RGBA32F exactly.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "generator/base/result.h"
+
+namespace intaglio::vulkan {
+
+struct Texture {
+    enum class Filter { Nearest, Linear };
+    enum class Wrap { Repeat, Clamp };
+    enum class Format { Rgba8Unorm, Rgba16Unorm, Rgba32Float };
+
+    int width = 0, height = 0;
+    // Level l is max(1, width >> l) by max(1, height >> l) texels, row 0 at v = 0, four floats a
+    // texel.  The unorm formats store each float as the nearest of 255 or 65535 steps in [0, 1].
+    std::vector<std::vector<float>> levels;
+    Filter filter = Filter::Linear;      // within a level
+    Filter mip_filter = Filter::Linear;  // between levels
+    Wrap wrap = Wrap::Repeat;
+    Format format = Format::Rgba8Unorm;
+};
+
+// Says what is wrong with the sizes of `texture`, which the caller knows as `name`, as error
+// `bad-texture`.
+Status validate(const Texture& texture, const std::string& name);
+
+// Texels of a level in the bytes of the format; NaN is stored as 0 in the unorm formats.
+std::vector<std::byte> encode(const std::vector<float>& level, Texture::Format format);
+
+}  // namespace intaglio::vulkan
