@@ -14,6 +14,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 Source pixel(Language language, std::string text) {
     return {
@@ -127,6 +128,29 @@ TEST(ToSpirv, Direct3D9SamplersNeedTheirOwnDialect) {
     EXPECT_EQ(wrong.error().file, "test.frag");
     const Result<SpirvWords> right = to_spirv(pixel(Language::Hlsl3, text));
     EXPECT_TRUE(right.ok()) << to_string(right.error());
+}
+
+TEST(ToSpirv, HlslPreciseBecomesNoContraction) {
+    const std::string text =
+        "float4 main(float4 a : TEXCOORD0) : SV_Target { precise float4 b = a * a + a; return b; "
+        "}\n";
+    const Result<SpirvWords> precise = to_spirv(pixel(Language::Hlsl5, text));
+    const Result<SpirvWords> loose =
+        to_spirv(pixel(Language::Hlsl5, replaced(text, "precise ", "")));
+    ASSERT_TRUE(precise.ok() && loose.ok());
+    EXPECT_THAT(*disassemble(*precise), HasSubstr("NoContraction"));
+    EXPECT_THAT(*disassemble(*loose), Not(HasSubstr("NoContraction")));
+}
+
+TEST(ToSpirv, Glsl450HasEveryPlaceInItsText) {
+    const Source source = parallax_pixel(Language::Glsl450);
+    ASSERT_TRUE(to_spirv(source).ok());
+    for (const char* place :
+         {"layout(set = 0, binding = 16) ", "layout(location = 1) ", "set = 0, binding = 0, "}) {
+        Source without = source;
+        without.text = replaced(source.text, place, "");
+        EXPECT_FALSE(to_spirv(without).ok()) << place;
+    }
 }
 
 TEST(ToSpirv, HlslTakesTheNamedEntryPoint) {

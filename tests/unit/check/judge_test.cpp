@@ -74,5 +74,83 @@ TEST(Judge, OldGlslEndsAfterTheFrontEnd) {
     }
 }
 
+// What the techniques need beyond the parallax shader: each kind of fetch, discard, integers,
+// several outputs.
+TEST(Judge, AcceptsEveryKindOfFetch) {
+    const std::string glsl =
+        "uniform sampler2D height_map;\nuniform sampler2D normal_map;\nuniform int steps;\n"
+        "in vec2 uv;\nlayout(location = 0) out vec4 color;\nlayout(location = 1) out vec4 "
+        "displaced;\n"
+        "void main() {\n"
+        "    if (texture(normal_map, uv).a < 0.5) discard;\n"
+        "    vec2 dx = dFdx(uv);\n    vec2 dy = dFdy(uv);\n    vec4 sum = vec4(0.0);\n"
+        "    for (int i = 0; i < steps; ++i) {\n"
+        "        sum += textureGrad(height_map, uv * float(i), dx, dy);\n"
+        "        if (sum.x > 4.0) break;\n    }\n"
+        "    sum += texelFetch(height_map, ivec2(uv * vec2(textureSize(height_map, 0))), 0);\n"
+        "    color = sum + textureLod(height_map, uv, 1.0);\n"
+        "    displaced = inversesqrt(sum) + pow(sum, vec4(2.0)) + fract(uv.xyxy);\n}\n";
+    const std::string hlsl_5 =
+        "cbuffer Globals : register(b0) { int steps; };\n"
+        "Texture2D height_map : register(t0);\nTexture2D normal_map : register(t1);\n"
+        "SamplerState wrap : register(s0);\n"
+        "struct Result { float4 color : SV_Target0; float4 displaced : SV_Target1; };\n"
+        "Result main(float2 uv : TEXCOORD0) {\n"
+        "    if (normal_map.Sample(wrap, uv).a < 0.5) discard;\n"
+        "    float2 dx = ddx(uv);\n    float2 dy = ddy(uv);\n    precise float4 sum = 0.0;\n"
+        "    [loop] for (int i = 0; i < steps; ++i) {\n"
+        "        sum += height_map.SampleGrad(wrap, uv * i, dx, dy);\n"
+        "        if (sum.x > 4.0) break;\n    }\n"
+        "    uint width, height;\n    height_map.GetDimensions(width, height);\n"
+        "    sum += height_map.Load(int3(uv * float2(width, height), 0));\n"
+        "    Result result;\n"
+        "    result.color = sum + height_map.SampleLevel(wrap, uv, 1.0);\n"
+        "    result.displaced = rsqrt(sum) + pow(sum, 2.0) + frac(uv.xyxy);\n"
+        "    return result;\n}\n";
+    const std::string hlsl_3 =
+        "sampler2D height_map : register(s0);\nsampler2D normal_map : register(s1);\nint steps;\n"
+        "struct Result { float4 color : COLOR0; float4 displaced : COLOR1; };\n"
+        "Result main(float2 uv : TEXCOORD0) {\n"
+        "    if (tex2D(normal_map, uv).a < 0.5) discard;\n"
+        "    float2 dx = ddx(uv);\n    float2 dy = ddy(uv);\n    float4 sum = 0.0;\n"
+        "    [loop] for (int i = 0; i < steps; ++i) {\n"
+        "        sum += tex2Dgrad(height_map, uv * i, dx, dy);\n"
+        "        if (sum.x > 4.0) break;\n    }\n"
+        "    Result result;\n"
+        "    result.color = sum + tex2Dlod(height_map, float4(uv, 0.0, 1.0));\n"
+        "    result.displaced = rsqrt(sum) + pow(sum, 2.0) + frac(uv.xyxy);\n"
+        "    return result;\n}\n";
+    const std::vector<std::pair<Language, std::string>> texts = {
+        {Language::Glsl330, "#version 330\n" + glsl},
+        {Language::Essl300,
+         "#version 300 es\nprecision highp float;\nprecision highp sampler2D;\n" + glsl},
+        {Language::Hlsl5, hlsl_5},
+        {Language::Hlsl3, hlsl_3}};
+    for (const auto& [language, text] : texts) {
+        const Result<Witnessed> witnessed =
+            judge({.language = language, .stage = Stage::Pixel, .text = text, .name = "fetches"});
+        EXPECT_TRUE(witnessed.ok()) << name_of(language) << ": " << to_string(witnessed.error());
+    }
+}
+
+// A triangle without buffers: each GLSL numbers vertices under a name of its own, Vulkan knows one.
+TEST(Judge, AcceptsVertexNumbers) {
+    const std::string glsl =
+        "void main() {\n    gl_Position = vec4(float(NUMBER & 1), float(NUMBER >> 1), 0.0, "
+        "1.0);\n}\n";
+    const std::vector<std::pair<Language, std::string>> texts = {
+        {Language::Glsl450, "#version 450\n#define NUMBER gl_VertexIndex\n" + glsl},
+        {Language::Glsl330, "#version 330\n#define NUMBER gl_VertexID\n" + glsl},
+        {Language::Essl300, "#version 300 es\n#define NUMBER gl_VertexID\n" + glsl},
+        {Language::Hlsl5,
+         "float4 main(uint number : SV_VertexID) : SV_Position {\n"
+         "    return float4(number & 1, number >> 1, 0.0, 1.0);\n}\n"}};
+    for (const auto& [language, text] : texts) {
+        const Result<Witnessed> witnessed =
+            judge({.language = language, .stage = Stage::Vertex, .text = text, .name = "numbers"});
+        EXPECT_TRUE(witnessed.ok()) << name_of(language) << ": " << to_string(witnessed.error());
+    }
+}
+
 }  // namespace
 }  // namespace intaglio::check

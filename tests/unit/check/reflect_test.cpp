@@ -142,6 +142,20 @@ Result main(float2 uv : TEXCOORD3) {
     EXPECT_THAT(view->outputs, ElementsAre(varying("color", 0, 4), varying("displaced", 1, 4)));
 }
 
+TEST(Reflect, Direct3D9SamplersKeepTheirRegisters) {
+    const Result<Reflection> view = reflect_text(Language::Hlsl3, Stage::Pixel, R"(
+float4 light : register(c4);
+sampler2D color_map : register(s3);
+sampler2D height_map : register(s1);
+float4 main(float2 uv : TEXCOORD0) : COLOR0 { return tex2D(color_map, uv) * light + tex2D(height_map, uv); }
+)");
+    ASSERT_TRUE(view.ok()) << to_string(view.error());
+    EXPECT_THAT(view->images,
+                ElementsAre(Image{"height_map", 0, texture_binding + 1, ImageKind::Combined, 1},
+                            Image{"color_map", 0, texture_binding + 3, ImageKind::Combined, 1}));
+    EXPECT_TRUE(find_member(*view, "light").has_value());
+}
+
 TEST(Reflect, LooseUniformsKeepTheirNames) {
     for (const Language language : {Language::Glsl330, Language::Essl300, Language::Hlsl3}) {
         const Result<SpirvWords> words = to_spirv(parallax_pixel(language));
