@@ -1,0 +1,108 @@
+// The list one can read aloud, and its repetition until nothing changes.
+#include "generator/passes/pipeline.h"
+
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "generator/ir/parse.h"
+#include "generator/ir/verify.h"
+#include "generator/passes/close_inductions.h"
+#include "generator/passes/eliminate_common_subexpressions.h"
+#include "generator/passes/flatten_branches.h"
+#include "generator/passes/fold_constants.h"
+#include "generator/passes/hoist_loop_invariants.h"
+#include "generator/passes/remove_dead_code.h"
+#include "generator/passes/remove_unused_interpolants.h"
+#include "generator/passes/unroll_loops.h"
+
+namespace intaglio::passes {
+namespace {
+
+using namespace ir;
+
+// Runs passes by name, tells the listener, and stops at the first failure.
+class Run {
+  public:
+    Run(Module& module, const PipelineOptions& options) : module_(module), options_(options) {}
+
+    template <typename Pass>
+    void operator()(std::string_view name, Pass&& pass) {
+        if (error_) return;
+        pass(module_);
+        if (options_.after_each) options_.after_each(name, module_);
+        if (nesting(module_.body) > max_nesting) {
+            error_ = input_error("nesting", fmt::format("'{}' nests branches deeper than {} when its loops with early "
+                                                        "exits are unrolled; keep the loops or flatten the branches",
+                                                        module_.name, max_nesting));
+        } else if (options_.verify_each) {
+            if (const Status status = verify(module_); !status)
+                error_ = internal_error("pass-broke-module", fmt::format("{}: {}", name, status.error().message));
+        }
+    }
+
+    const std::optional<Diagnostic>& error() const { return error_; }
+
+  private:
+    static int nesting(const Region& region) {
+        int deepest = 0;
+        for (const Instruction& instruction : region.body)
+            for (const Region& inner : instruction.regions) deepest = std::max(deepest, 1 + nesting(inner));
+        return deepest;
+    }
+
+    Module& module_;
+    const PipelineOptions& options_;
+    std::optional<Diagnostic> error_;
+};
+
+void run_once(Run& run, const PipelineOptions& options, std::vector<std::string>& notes) {
+    const Loops loops = options.unroll_all ? Loops::All : Loops::AsScheduled;
+    const EarlyExit early_exit = options.flatten_all ? EarlyExit::Select : EarlyExit::Branch;
+    run("fold_constants", fold_constants);
+    run("eliminate_common_subexpressions", eliminate_common_subexpressions);
+    run("hoist_loop_invariants", hoist_loop_invariants);
+    run("close_inductions", [&](Module& module) {
+        for (std::string& note : close_inductions(module)) notes.push_back(std::move(note));
+    });
+    run("unroll_loops", [&](Module& module) { unroll_loops(module, loops, early_exit); });
+    run("fold_constants", fold_constants);
+    if (options.flatten_all) run("flatten_branches", [](Module& module) { flatten_branches(module); });
+    run("fold_constants", fold_constants);
+    run("eliminate_common_subexpressions", eliminate_common_subexpressions);
+    run("remove_dead_code", remove_dead_code);
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> optimize(ir::Module& module, const PipelineOptions& options) {
+    std::vector<std::string> notes;
+    Run run(module, options);
+    // Each round needs the one before it to have found something; real modules settle in two or three.
+    for (int round = 0; round < 16; ++round) {
+        const Module before = module;
+        run_once(run, options, notes);
+        if (run.error()) return *run.error();
+        if (module == before) break;
+    }
+    return notes;
+}
+
+Result<std::vector<std::string>> optimize_program(ir::Program& program, const PipelineOptions& options) {
+    auto notes = optimize(program.pixel, options);
+    if (!notes) return notes;
+    const auto append = [&](const std::vector<std::string>& more) {
+        notes->insert(notes->end(), more.begin(), more.end());
+    };
+    append(hoist_to_vertex(program, options.interpolants));
+    remove_unused_interpolants(program);
+    for (Module* stage : {&program.vertex, &program.pixel}) {
+        const auto more = optimize(*stage, options);
+        if (!more) return more;
+        append(*more);
+    }
+    return notes;
+}
+
+}  // namespace intaglio::passes
