@@ -115,6 +115,24 @@ Result<std::unique_ptr<InstanceState>> make_instance(bool validation) {
     return state;
 }
 
+// Drivers, and the layer once it was used, stay loaded until the process ends, held by one bare
+// instance each.  Both keep memory beyond their devices; unloaded with the last of them they would
+// lose it anew for each Device.
+void keep_loaded(bool validation) {
+    const auto bare_instance = [](std::uint32_t layers) {
+        VkInstanceCreateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
+        info.enabledLayerCount = layers;
+        info.ppEnabledLayerNames = &validation_layer;
+        VkInstance instance = VK_NULL_HANDLE;
+        return vkCreateInstance(&info, nullptr, &instance) == VK_SUCCESS ? instance
+                                                                         : VK_NULL_HANDLE;
+    };
+    [[maybe_unused]] static const VkInstance drivers = bare_instance(0);
+    if (!validation) return;
+    [[maybe_unused]] static const VkInstance layer = bare_instance(1);
+}
+
 Result<std::vector<VkPhysicalDevice>> physical_devices(VkInstance instance) {
     std::uint32_t count = 0;
     std::vector<VkPhysicalDevice> devices;
@@ -285,6 +303,7 @@ Result<Device> Device::create(const DeviceOptions& options) {
     if (!instance) return instance.error();
     auto devices = physical_devices((*instance)->instance);
     if (!devices) return devices.error();
+    keep_loaded(options.validation);
     auto chosen = choose(*devices, options.device);
     if (!chosen) return chosen.error();
 
@@ -308,6 +327,7 @@ Result<std::vector<std::string>> Device::list() {
     if (!instance) return instance.error();
     auto devices = physical_devices((*instance)->instance);
     if (!devices) return devices.error();
+    keep_loaded(false);
     return names_of(*devices);
 }
 

@@ -75,6 +75,15 @@ TEST(Device, NoDriverIsASentenceWithAHint) {
     EXPECT_THAT(to_string(device.error()), HasSubstr("hint: install a Vulkan driver"));
 }
 
+TEST(Device, PictureBeyondItsMemoryIsASentence) {
+    const auto device = Device::create();
+    ASSERT_TRUE(device.ok()) << to_string(device.error());
+    // 4 GiB for a target, and lavapipe allocates at most 2 GiB.
+    const Draw draw = quad_draw(
+        glsl_fragment("layout(location = 0) out vec4 n; void main() { n = vec4(1.0); }"), 16384);
+    EXPECT_THAT(refusal(*device, draw), HasSubstr("is out of memory [out-of-memory]"));
+}
+
 // The other tests trust an empty list, so it must be able to fill.
 TEST(Device, ValidationMessagesAreCollected) {
     for (const bool validation : {true, false}) {

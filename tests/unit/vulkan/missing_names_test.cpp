@@ -60,7 +60,9 @@ TEST_F(MissingNames, Sampler) {
     draw.fragment = compile(check::Language::Hlsl5, check::Stage::Pixel, R"(
         Texture2D height_map : register(t0);
         SamplerState linear_repeat : register(s0);
-        float4 main(float2 uv : TEXCOORD0) : SV_Target { return height_map.Sample(linear_repeat, uv); })");
+        float4 main(float2 uv : TEXCOORD0) : SV_Target {
+            return height_map.Sample(linear_repeat, uv);
+        })");
     EXPECT_EQ(refusal(device(), draw),
               "error: the fragment shader needs the sampler 'linear_repeat', and no given "
               "texture's name begins so; textures given: height_map [missing-texture]");

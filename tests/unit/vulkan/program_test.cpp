@@ -75,7 +75,9 @@ TEST_F(ProgramTest, MapQuadCameraIsThePlainQuad) {
 
 TEST_F(ProgramTest, UniformsReachBothStagesAtTheirOffsets) {
     Draw draw = quad_draw(glsl_fragment(R"(
-        layout(set = 1, binding = 3) uniform Numbers { float a; vec3 b; vec2 c[3]; int steps; uint bits; };
+        layout(set = 1, binding = 3) uniform Numbers {
+            float a; vec3 b; vec2 c[3]; int steps; uint bits;
+        };
         layout(location = 0) in vec2 shift;
         layout(location = 0) out vec4 first;
         layout(location = 1) out vec4 second;

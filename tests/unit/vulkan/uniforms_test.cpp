@@ -90,7 +90,9 @@ TEST(Uniforms, ScalarTypesAreReadFromTheModule) {
             float f; int i; uint u; vec3 v; ivec2 w; float a[3]; uint b[2]; int last;
         };
         layout(location = 0) out vec4 color;
-        void main() { color = vec4(f + float(i) + float(u), v.x + float(w.x), a[2] + float(b[1]), float(last)); })");
+        void main() {
+           color = vec4(f + float(i) + float(u), v.x + float(w.x), a[2] + float(b[1]), float(last));
+        })");
     const auto reflection = check::reflect(stage.spirv);
     ASSERT_TRUE(reflection.ok());
     ASSERT_EQ(reflection->blocks.size(), 1u);
