@@ -156,6 +156,10 @@ std::optional<Expressions::Text> Expressions::repeated_scalar(ValueId value) {
         return Text{std::move(text), binds};
     }
     if (is_splat(module_, definition)) return expression(definition.operands[0]);
+    const auto lanes_end = definition.lanes.begin() + type.width;
+    if (definition.op == Op::Swizzle && std::count(definition.lanes.begin(), lanes_end, definition.lanes[0]) == type.width)
+        return Text{fmt::format("{}.{}", operand(definition.operands[0], Binds::Postfix), "xyzw"[definition.lanes[0]]),
+                    Binds::Postfix};
     return std::nullopt;
 }
 
@@ -210,7 +214,8 @@ std::string_view fallback_name(const ir::Module& module, const Uses& uses, Value
         case Op::Sub: return "difference";
         case Op::Mul: return "product";
         case Op::Div: return "quotient";
-        case Op::Dot: return "cosine";
+        case Op::Dot: return "dot_product";
+        case Op::Compose: return "combined";
         case Op::Sqrt: return "root";
         case Op::Rsqrt: return "inverse_length";
         case Op::Abs: return "magnitude";
@@ -227,7 +232,7 @@ std::string_view fallback_name(const ir::Module& module, const Uses& uses, Value
         case Op::SampleLevel:
         case Op::SampleGrad:
         case Op::SampleImplicit: return "texel";
-        default: return type.width > 1 ? "vector" : "number";
+        default: return "number";
     }
 }
 

@@ -7,22 +7,28 @@
 namespace intaglio::clike {
 namespace {
 
-constexpr std::string_view operators[] = {"+", "-", "*", "/", "<", "<=", ">", ">=", "==", "!=", "&&", "||", "?", ":"};
-
-struct Break {
-    std::size_t at = 0;  // the next line starts here
-    int depth = 0;
+struct Operator {
+    std::string_view word;
+    int strength;  // loose ones are better places to break; a comma has 0
 };
 
-bool operator_at(std::string_view text, std::size_t i) {
+constexpr Operator operators[] = {{"?", 1}, {":", 1}, {"||", 2}, {"&&", 3}, {"<", 4}, {"<=", 4}, {">", 4}, {">=", 4},
+                                  {"==", 4}, {"!=", 4}, {"+", 5}, {"-", 5}, {"*", 6}, {"/", 6}};
+constexpr int strengths = 7;
+
+// The strength of the operator that starts here; -1 if none does.
+int operator_at(std::string_view text, std::size_t i) {
     const std::size_t end = text.find(' ', i);
     const std::string_view word = text.substr(i, end == std::string_view::npos ? end : end - i);
-    return std::find(std::begin(operators), std::end(operators), word) != std::end(operators);
+    for (const Operator& known : operators)
+        if (known.word == word) return known.strength;
+    return -1;
 }
 
-// The best place to end a line of at most `width`: least nested, then furthest right; 0 if there is none.
+// The best place to end a line of at most `width`: least nested, then loosest, then furthest right; 0 if there is none.
 std::size_t best_break(std::string_view text, std::size_t width) {
-    Break best;
+    std::size_t best_at = 0;
+    int best_cost = 0;
     int depth = 0;
     for (std::size_t i = 1; i < text.size() && i <= width; ++i) {
         const char before = text[i - 1];
@@ -30,10 +36,15 @@ std::size_t best_break(std::string_view text, std::size_t width) {
         if (before == ')' || before == ']') --depth;
         if (before != ' ') continue;
         const bool after_comma = i >= 2 && (text[i - 2] == ',' || text[i - 2] == ';');
-        if (!after_comma && !operator_at(text, i)) continue;
-        if (best.at == 0 || depth <= best.depth) best = {i, depth};
+        const int strength = after_comma ? 0 : operator_at(text, i);
+        if (strength < 0) continue;
+        const int cost = depth * strengths + strength;
+        if (best_at == 0 || cost <= best_cost) {
+            best_at = i;
+            best_cost = cost;
+        }
     }
-    return best.at;
+    return best_at;
 }
 
 }  // namespace

@@ -25,6 +25,8 @@ class NameScope {
     std::string declare(std::string_view wanted, std::string_view fallback = "value");
     // Takes the name for the whole text, even after this level is left.
     std::string declare_everywhere(std::string_view wanted);
+    // Makes a name visible here that was made elsewhere.
+    void take(const std::string& name) { levels_.back().insert(name); }
     bool visible(const std::string& name) const;
 
     void open() { levels_.emplace_back(); }

@@ -50,13 +50,50 @@ std::vector<std::string> InterfaceNames::of_samplers(const ir::Module& module) c
     return names;
 }
 
+NameScope InterfaceNames::scope_of_uniforms(const ir::Module& module) const {
+    NameScope scope;
+    for (const std::string& name : of_uniforms(module)) scope.take(name);
+    for (const std::string& name : of_samplers(module)) {
+        scope.take(name);
+        scope.take(name + "_sampler");
+    }
+    return scope;
+}
+
+NameScope InterfaceNames::scope_of(const ir::Program& program, ir::Stage stage) const {
+    const ir::Module& module = stage_of(program, stage);
+    NameScope scope = scope_of_uniforms(module);
+    for (const auto* declarations : {&module.inputs, &module.outputs})
+        for (const ir::Declaration& declaration : *declarations) {
+            if (declaration.semantic == ir::Semantic::Attribute) scope.take(of(Kind::Attribute, declaration.name));
+            if (declaration.semantic == ir::Semantic::Target) scope.take(of(Kind::Target, declaration.name));
+            if (declaration.semantic != ir::Semantic::Interpolant) continue;
+            const auto name = names_.find({Kind::Interpolant, declaration.name});
+            if (name != names_.end()) scope.take(name->second);
+        }
+    return scope;
+}
+
 void put_header(TextBuilder& out, const ir::Program& program, ir::Stage stage, const Target& target) {
     put_comment(out, fmt::format("{}: {} stage for {}", program.name,
                                  stage == ir::Stage::Vertex ? "vertex" : "pixel", target.name));
-    if (!program.description.empty()) put_comment(out, program.description);
-    std::string settings;
-    for (const std::string& setting : program.settings) settings += (settings.empty() ? "" : ", ") + setting;
-    if (!settings.empty()) put_comment(out, fmt::format("Settings: {}", settings));
+    std::string_view description = program.description;
+    while (!description.empty()) {
+        const std::size_t end = std::min(description.find('\n'), description.size());
+        put_comment(out, description.substr(0, end));
+        description.remove_prefix(std::min(end + 1, description.size()));
+    }
+    // A setting stays on one line.
+    std::string line = "Settings:";
+    for (std::size_t i = 0; i < program.settings.size(); ++i) {
+        const std::string setting = program.settings[i] + (i + 1 < program.settings.size() ? "," : "");
+        if (line.size() + 1 + setting.size() + 3 > line_width) {
+            put_comment(out, line);
+            line = " ";
+        }
+        line.append(" ").append(setting);
+    }
+    if (!program.settings.empty()) put_comment(out, line);
 }
 
 void put_declaration(TextBuilder& out, std::string_view declaration, std::string_view comment) {

@@ -25,8 +25,10 @@ class InterfaceNames {
     const std::string& of(Kind kind, const std::string& dsl_name) const { return names_.at({kind, dsl_name}); }
     std::vector<std::string> of_uniforms(const ir::Module& module) const;
     std::vector<std::string> of_samplers(const ir::Module& module) const;
-    // Every name, as the scope that a body starts in.
-    const NameScope& scope() const { return scope_; }
+    // What the body of a stage sees: everything that its text declares globally.
+    NameScope scope_of(const ir::Program& program, ir::Stage stage) const;
+    // The same where inputs and outputs are members of structs.
+    NameScope scope_of_uniforms(const ir::Module& module) const;
 
   private:
     void declare(Kind kind, const std::string& dsl_name, std::string_view prefix = {});

@@ -30,6 +30,7 @@ class BodyPrinter {
           declared_(plan_.variables().size()) {}
 
     Status run() {
+        if (!ending_.before.empty()) statement(ending_.before);
         print_region(module_.body);
         if (expressions_.error()) return *expressions_.error();
         if (error_) return *error_;
@@ -150,7 +151,8 @@ class BodyPrinter {
         }
         const int index_variable = plan_.variable(body.parameters[0]);
         const std::string& wanted = plan_.variables()[static_cast<std::size_t>(index_variable)].name;
-        const std::string index = scope_.declare_everywhere(wanted.empty() ? next_index_name() : wanted);
+        const bool free_choice = wanted.empty() || (wanted.size() == 1 && scope_.visible(wanted));
+        const std::string index = scope_.declare_everywhere(free_choice ? next_index_name() : wanted);
         expressions_.name_variable(index_variable, index);
         const bool rolled = loop.loop.form == ir::LoopForm::Rolled;
         open(fmt::format("{}for (int {} = 0; {} < {}; ++{}) {{", rolled ? spelling_.rolled_loop : "", index, index,
@@ -271,11 +273,19 @@ class BodyPrinter {
 
     void print_return(const Instruction& instruction) {
         begin_step(instruction);
-        if (ending_.stores.empty())
-            return statement(fmt::format("return {};", expressions_.read(instruction.operands[0])));
+        if (ending_.stores.empty()) return print_result(instruction.operands[0]);
         for (std::size_t i = 0; i < instruction.operands.size(); ++i)
             statement(fmt::format("{} = {};", ending_.stores[i], expressions_.read(instruction.operands[i])));
         if (!ending_.after.empty()) statement(ending_.after);
+    }
+
+    // `precise` needs a variable to stand on.
+    void print_result(ValueId value) {
+        const std::string text = expressions_.read(value);
+        if (spelling_.precise.empty()) return statement(fmt::format("return {};", text));
+        const std::string name = scope_.declare(ending_.result_name, "found");
+        statement(fmt::format("{}{} {} = {};", spelling_.precise, type_of(module_.type(value)), name, text));
+        statement(fmt::format("return {};", name));
     }
 
     TextBuilder& out_;

@@ -14,9 +14,11 @@ namespace intaglio::clike {
 
 // How a body hands over its outputs.
 struct Ending {
-    std::vector<std::string> stores;  // for each output what stands left of "=": "color", "precise vec3 hit"
-    std::string after;                // a last statement, "return hit;"; may be empty
-    // With one output and no stores: "return <expression>;".
+    std::string before;               // a first statement, "Targets result;"; may be empty
+    std::vector<std::string> stores;  // for each output what stands left of "=": "color"; empty: the one output is
+                                      // returned
+    std::string result_name;          // wanted for the returned value, should it need a name
+    std::string after;                // a last statement, "return result;"; may be empty
 };
 
 // `scope` holds the names that the shell has declared; `out` is inside the braces of the body.

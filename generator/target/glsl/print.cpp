@@ -133,11 +133,11 @@ Result<Artifact> print_stage(const Dialect& dialect, const ir::Program& program,
     for (const ir::Sampler& sampler : module.samplers) slots.push_back(clike::sampler_slot(program, sampler.name));
     put_samplers(out, dialect, module, outer.samplers, slots);
     if (!module.uniforms.empty() || !module.samplers.empty()) out.line();
-    const clike::Ending ending{put_outputs(out, dialect, module, interface), {}};
+    const clike::Ending ending{{}, put_outputs(out, dialect, module, interface), {}, {}};
 
     out.line("void main() {");
     out.indent();
-    clike::NameScope scope = interface.scope();
+    clike::NameScope scope = interface.scope_of(program, stage);
     scope.open();
     if (Status status = clike::print_body(out, module, dialect.spelling, outer, ending, scope); !status)
         return status.error();
@@ -182,12 +182,7 @@ Result<Artifact> print_function(const Dialect& dialect, const ir::Module& functi
     clike::put_statement(out, fmt::format("{} {}({}) {{", type, name, fmt::join(parameters, ", ")));
     out.indent();
     scope.open();
-    clike::Ending ending;
-    if (!dialect.function_spelling.precise.empty()) {
-        const std::string result = scope.declare(function.outputs[0].name, "found");
-        ending = {{fmt::format("{}{} {}", dialect.function_spelling.precise, type, result)},
-                  fmt::format("return {};", result)};
-    }
+    const clike::Ending ending{{}, {}, function.outputs[0].name, {}};
     if (Status status = clike::print_body(out, function, dialect.function_spelling, outer, ending, scope); !status)
         return status.error();
     out.outdent();

@@ -132,13 +132,10 @@ std::map<std::string, std::string> put_interpolants(TextBuilder& out, const Dial
 }
 
 // One target is the return value; several are a struct.
-clike::Ending put_targets(TextBuilder& out, const Dialect& dialect, const ir::Module& pixel, clike::NameScope& scope,
-                          std::string& signature) {
+clike::Ending put_targets(TextBuilder& out, const Dialect& dialect, const ir::Module& pixel, std::string& signature) {
     if (pixel.outputs.size() == 1) {
-        const std::string type = type_of(dialect, pixel.outputs[0].type);
-        const std::string name = scope.declare(pixel.outputs[0].name);
-        signature = fmt::format("{} pixel_main({{}}) : SV_Target0 {{{{", type);
-        return {{fmt::format("{}{} {}", dialect.spelling.precise, type, name)}, fmt::format("return {};", name)};
+        signature = fmt::format("{} pixel_main({{}}) : SV_Target0 {{{{", type_of(dialect, pixel.outputs[0].type));
+        return {{}, {}, pixel.outputs[0].name, {}};
     }
     clike::NameScope members;
     clike::Ending ending;
@@ -154,6 +151,7 @@ clike::Ending put_targets(TextBuilder& out, const Dialect& dialect, const ir::Mo
     out.line("};");
     out.line();
     signature = "Targets pixel_main({}) {{";
+    ending.before = "Targets result;";
     ending.after = "return result;";
     return ending;
 }
@@ -164,7 +162,7 @@ Result<Artifact> print_stage(const Dialect& dialect, const ir::Program& program,
     const bool vertex = stage == ir::Stage::Vertex;
     const ir::Module& module = clike::stage_of(program, stage);
     const clike::InterfaceNames interface(program, "vertex_");
-    clike::NameScope scope = interface.scope();
+    clike::NameScope scope = interface.scope_of_uniforms(module);
     TextBuilder out;
     clike::put_header(out, program, stage, dialect.target);
     out.line();
@@ -179,11 +177,11 @@ Result<Artifact> print_stage(const Dialect& dialect, const ir::Program& program,
     std::map<std::string, std::string> members = put_interpolants(out, dialect, program, stage);
     clike::Ending ending;
     std::string signature = "Interpolants vertex_main({}) {{";
-    bool declares_result = vertex;
     if (vertex) {
         for (const ir::Declaration& output : module.outputs)
             ending.stores.push_back(
                 "result." + members.at((output.semantic == ir::Semantic::Position ? "position of " : "") + output.name));
+        ending.before = "Interpolants result;";
         ending.after = "return result;";
     } else {
         for (const ir::Declaration& input : module.inputs) {
@@ -191,15 +189,13 @@ Result<Artifact> print_stage(const Dialect& dialect, const ir::Program& program,
             if (!found) return found.error();
             outer.inputs.push_back("pixel." + members.at(input.name));
         }
-        ending = put_targets(out, dialect, module, scope, signature);
-        declares_result = module.outputs.size() > 1;
+        ending = put_targets(out, dialect, module, signature);
     }
 
     const std::string parameter = vertex ? (module.inputs.empty() ? "" : "Attributes vertex")
                                          : (members.empty() && module.inputs.empty() ? "" : "Interpolants pixel");
     out.line(fmt::format(fmt::runtime(signature), parameter));
     out.indent();
-    if (declares_result) out.format("{} result;", vertex ? "Interpolants" : "Targets");
     scope.open();
     if (Status status = clike::print_body(out, module, dialect.spelling, outer, ending, scope); !status)
         return status.error();
@@ -245,9 +241,7 @@ Result<Artifact> print_function(const Dialect& dialect, const ir::Module& functi
     clike::put_statement(out, fmt::format("{} {}({}) {{", type, name, fmt::join(parameters, ", ")));
     out.indent();
     scope.open();
-    const std::string result = scope.declare(function.outputs[0].name, "found");
-    const clike::Ending ending{{fmt::format("{}{} {}", dialect.spelling.precise, type, result)},
-                               fmt::format("return {};", result)};
+    const clike::Ending ending{{}, {}, function.outputs[0].name, {}};
     if (Status status = clike::print_body(out, function, dialect.spelling, outer, ending, scope); !status)
         return status.error();
     out.outdent();
