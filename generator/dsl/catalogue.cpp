@@ -15,12 +15,21 @@ using Choices = std::map<std::string, std::string, std::less<>>;
 
 const std::vector<std::string> part_names = {"search", "shadow", "normal", "shading", "output", "vertex"};
 
-Result<Choices> split_composition(std::string_view text) {
+std::vector<std::string_view> split_items(std::string_view text) {
+    std::vector<std::string_view> items;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t comma = std::min(text.find(',', begin), text.size());
+        items.push_back(text.substr(begin, comma - begin));
+        begin = comma + 1;
+    }
+    return items;
+}
+
+bool names_technique(std::string_view item) { return item.find('=') == std::string_view::npos; }
+
+Result<Choices> parse_items(const std::vector<std::string_view>& items) {
     Choices choices;
-    while (!text.empty()) {
-        const std::size_t comma = text.find(',');
-        const std::string_view item = text.substr(0, comma);
-        text = comma == std::string_view::npos ? std::string_view{} : text.substr(comma + 1);
+    for (std::string_view item : items) {
         const std::size_t equals = item.find('=');
         if (equals == std::string_view::npos)
             return input_error("surface-syntax", fmt::format("'{}' is not of the form part=technique", item));
@@ -30,6 +39,33 @@ Result<Choices> split_composition(std::string_view text) {
         if (!choices.emplace(part, item.substr(equals + 1)).second)
             return input_error("surface-syntax", fmt::format("part '{}' is given twice", part));
     }
+    return choices;
+}
+
+// The parts that a preset's or a search's name stands for.
+Result<Choices> choices_named(const Catalogue& catalogue, std::string_view name) {
+    for (const Preset& preset : catalogue.presets)
+        if (preset.name == name) return parse_items(split_items(preset.composition));
+    std::vector<std::string> names;
+    for (const Preset& preset : catalogue.presets) names.push_back(preset.name);
+    for (const Entry<Search>& row : catalogue.searches) {
+        if (row.name == name) return Choices{{"search", row.name}};
+        names.push_back(row.name);
+    }
+    return input_error("unknown-surface", unknown_name_sentence("surface", name, names));
+}
+
+Result<Choices> parse_composition(const Catalogue& catalogue, std::string_view text) {
+    std::vector<std::string_view> items = split_items(text);
+    Choices base;
+    if (names_technique(items.front())) {
+        Result<Choices> named = choices_named(catalogue, items.front());
+        if (!named) return named;
+        base = std::move(*named);
+        items.erase(items.begin());
+    }
+    Result<Choices> choices = parse_items(items);
+    if (choices) choices->merge(base);  // keeps what the text says itself
     return choices;
 }
 
@@ -55,22 +91,7 @@ Status choose(const std::vector<Entry<Kind>>& table, const Choices& choices, con
 }  // namespace
 
 Result<Surface> make_surface(const Catalogue& catalogue, std::string_view text) {
-    std::string composition(text);
-    if (text.find('=') == std::string_view::npos) {
-        const auto preset = std::find_if(catalogue.presets.begin(), catalogue.presets.end(),
-                                         [&](const Preset& p) { return p.name == text; });
-        const bool is_search = std::any_of(catalogue.searches.begin(), catalogue.searches.end(),
-                                           [&](const auto& e) { return e.name == text; });
-        if (preset == catalogue.presets.end() && !is_search) {
-            std::vector<std::string> names;
-            for (const Preset& p : catalogue.presets) names.push_back(p.name);
-            for (const Entry<Search>& e : catalogue.searches)
-                if (std::find(names.begin(), names.end(), e.name) == names.end()) names.push_back(e.name);
-            return input_error("unknown-surface", unknown_name_sentence("surface", text, names));
-        }
-        composition = preset != catalogue.presets.end() ? preset->composition : "search=" + composition;
-    }
-    Result<Choices> choices = split_composition(composition);
+    const Result<Choices> choices = parse_composition(catalogue, text);
     if (!choices) return choices.error();
 
     Surface surface;
@@ -84,6 +105,14 @@ Result<Surface> make_surface(const Catalogue& catalogue, std::string_view text) 
           choose(catalogue.vertex_works, *choices, "vertex", surface.vertex, surface.description)})
         if (!status) return status.error();
     return surface;
+}
+
+std::string with_part(std::string_view composition, std::string_view part, std::string_view technique) {
+    std::string replaced;
+    for (std::string_view item : split_items(composition))
+        if (item.substr(0, item.find('=')) != part || names_technique(item))
+            replaced += (replaced.empty() ? "" : ",") + std::string(item);
+    return fmt::format("{}{}{}={}", replaced, replaced.empty() ? "" : ",", part, technique);
 }
 
 }  // namespace intaglio::dsl

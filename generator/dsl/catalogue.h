@@ -41,9 +41,13 @@ struct Catalogue {
     std::vector<Preset> presets;
 };
 
-// A surface from what a user writes: a preset's or a search's name, or a composition of key=technique, separated by
-// commas, with the keys search, shadow, normal, shading, output, vertex.  What is not named is the first row of its
-// table.  Wrong names get a sentence with the nearest right one.
+// A surface from what a user writes: items separated by commas, each part=technique with the parts search, shadow, normal,
+// shading, output and vertex.  The first item may be a preset's or a search's name instead, whose parts the others
+// replace: "fur,output=displaced".  What is not named is the first row of its table.  Wrong names get a sentence
+// with the nearest right one.
 Result<Surface> make_surface(const Catalogue& catalogue, std::string_view text);
+
+// The same composition with one part replaced: with_part("fur", "output", "displaced").
+std::string with_part(std::string_view composition, std::string_view part, std::string_view technique);
 
 }  // namespace intaglio::dsl

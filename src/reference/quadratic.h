@@ -18,6 +18,8 @@ struct Quadratic {
 
     // The largest value on [0, 1].
     double maximum() const;
+    // The smallest value on [0, 1].
+    double minimum() const { return -Quadratic{-from, -to, -bend}.maximum(); }
 };
 
 }  // namespace intaglio::reference

@@ -138,6 +138,20 @@ TEST(FirstHit, EightBitWeightsAgainstEveryStepOfTheStaircase) {
     EXPECT_LT(undecided, 10);
 }
 
+TEST(FirstHit, EightBitCornersThatTheRayOnlyTouchesDoNotCount) {
+    // Exactly along the diagonal of h = x (1 - y), through the corners of the steps.  The steps
+    // beside it reach 128 * 129 / 65536 = 0.252 where those on it reach 0.25; the ray passes at
+    // 0.251.
+    const double d = 64, corner = 127.5 / 256, start = corner - (1 - 257.0 / 1024) * d;
+    for (const std::vector<double>& heights :
+         {std::vector<double>{0, 1, 0, 0}, std::vector<double>{0, 0, 1, 0}}) {
+        const HeightField field{2, 2, heights, Wrap::Clamp, FilterWeights::EightBit};
+        const Hit hit = first_hit(field, {(start + 0.5) / 2, (start + 0.5) / 2}, {-d, -d, 2}, 1);
+        EXPECT_TRUE(hit.found);
+        EXPECT_EQ(hit.t, 1);
+    }
+}
+
 TEST(FirstHit, EightBitWeightsStayCloseToExactOnes) {
     // The staircase is within 1/256 of the surface here, and the ray falls by 1 over a flat enough
     // map.

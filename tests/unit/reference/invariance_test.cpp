@@ -57,6 +57,22 @@ TEST(FirstHitInvariance, WholeTurnsOfTheCoordinate) {
     });
 }
 
+TEST(FirstHitInvariance, FarCoordinatesKeepTheirFraction) {
+    Random random(witness::seed());
+    for (int i = 0; i < 2000; ++i) {
+        Case c = witness::random_case(random, 9, 85);
+        c.field.wrap = Wrap::Repeat;
+        const Vec2 far{random.real(1e5, 1e5 + 1), random.real(-65, -64)};
+        const Vec2 near{far.x - 1e5, far.y + 65};  // exact
+        ASSERT_EQ(first_hit(c.field, far, c.direction, c.scale).t,
+                  first_hit(c.field, near, c.direction, c.scale).t);
+        ASSERT_EQ(height_at(c.field, far), height_at(c.field, near));
+        // So far out there are no fractions left.
+        ASSERT_EQ(first_hit(c.field, {1e300, -1e17}, c.direction, c.scale).t,
+                  first_hit(c.field, {0, 0}, c.direction, c.scale).t);
+    }
+}
+
 TEST(FirstHitInvariance, LengthOfTheView) {
     for_random_cases(2000, [](Case& c, const Hit& hit) {
         for (const double k :

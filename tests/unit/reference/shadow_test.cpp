@@ -145,8 +145,11 @@ TEST(Shadow, RiserOfTheStaircaseLooksToItsOwnSide) {
     // towards the higher.
     const HeightField steps{2, 1, {0, 1}, Wrap::Clamp, FilterWeights::EightBit};
     const Vec2 on_riser{(100.5 / 256 + 0.5) / 2, 0.5};
-    EXPECT_TRUE(lit(steps, on_riser, 100.5 / 256, {-1, 0, 0.1}, 1));
-    EXPECT_FALSE(lit(steps, on_riser, 100.5 / 256, {1, 0, 0.1}, 1));
+    for (const double rounding : {0.0, 1e-12, -1e-12}) {
+        const Vec2 uv{on_riser.x + rounding, on_riser.y};
+        EXPECT_TRUE(lit(steps, uv, 100.5 / 256, {-1, 0, 0.1}, 1));
+        EXPECT_FALSE(lit(steps, uv, 100.5 / 256, {1, 0, 0.1}, 1));
+    }
 }
 
 TEST(Shadow, ToleranceLeavesOutWhatIsLower) {

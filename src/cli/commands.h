@@ -1,0 +1,101 @@
+// One class of options and one function per command.  A command parses nothing: it gets its options filled, does the
+// work, and gives an error or nothing.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "generator/base/result.h"
+#include "generator/dsl/catalogue.h"
+#include "src/measure/map_set.h"
+#include "src/variant/variant.h"
+
+namespace intaglio::cli {
+
+struct ListOptions {
+    std::string what = "techniques";  // techniques, targets, knobs, maps
+    bool json = false;
+};
+Status list(const dsl::Catalogue& catalogue, const ListOptions& options);
+
+// What names a variant, on every command that takes one.
+struct VariantOptions {
+    std::string surface;
+    std::string target;
+    std::vector<std::string> knobs;  // "taps=12"
+    std::vector<std::string> loops;  // "march=unroll" or "march=loop"
+    bool per_vertex = false;
+};
+Result<VariantRequest> request_of(const VariantOptions& options);
+
+struct EmitCommandOptions {
+    VariantOptions variant;
+    std::string stage = "pixel";      // vertex, pixel
+    std::string as = "shader";        // shader, function
+    std::string part = "search";      // of a function: search, shadow
+    std::string bind = "parameters";  // of a function: parameters, globals
+    bool count_reads = false;
+    std::string dump_ir;              // empty: no; all; final; or the name of a pass
+    std::string output = "-";
+};
+Status emit_variant(const dsl::Catalogue& catalogue, const EmitCommandOptions& options);
+
+struct ValidateOptions {
+    std::vector<std::string> surfaces;
+    std::vector<std::string> targets;  // empty: every target
+    std::vector<std::string> knobs, loops;
+    bool verbose = false;
+};
+Status validate(const dsl::Catalogue& catalogue, const ValidateOptions& options);
+
+// Which maps a surface wears.
+struct MapOptions {
+    std::string height, normal, colour;  // files; empty: made from the heights
+    std::string maker;                   // a procedural map in place of files
+    std::string map_size = "256x256";    // of a procedural map
+    double scale = 0.08;
+    std::string filtering = "float";     // float, native
+};
+Result<measure::MapSet> map_set_of(const MapOptions& options);
+Result<measure::Filtering> filtering_of(const std::string& name);
+
+struct RunOptions {
+    VariantOptions variant;
+    MapOptions map;
+    std::string mesh = "quad";  // map: the whole map seen from infinity; quad, sphere, torus: in perspective
+    double elevation = 40, azimuth = 250, light_elevation = 45, light_azimuth = 20, distance = 0, repeat = 1;
+    std::string size = "512x512";
+    std::string device;
+    bool validation = false;
+    std::string error_map;      // a file for the map of hit errors; only with mesh = map
+    std::string output;
+};
+Status run(const dsl::Catalogue& catalogue, const RunOptions& options);
+
+struct MeasureOptions {
+    std::string scene;
+    std::string output;   // folder
+    std::string height;   // a map in place of the scene's
+    std::string device;
+    bool validation = false;
+};
+Status measure_scene(const dsl::Catalogue& catalogue, const MeasureOptions& options);
+
+struct BakeOptions {
+    std::string input, output;
+    double scale = 0.08;
+    std::string kernel = "central";  // central, sobel
+    std::string wrap = "repeat";     // repeat, clamp
+    bool keep_height = false;        // heights in alpha
+};
+Status bake_normal(const BakeOptions& options);
+
+// Writes a product to stdout ("-") or whole to a file.
+Status write_product(const std::string& output, std::string_view bytes, bool binary);
+
+// "256x128" as two numbers from 1 to 16384.
+struct Size { int width, height; };
+Result<Size> parse_size(const std::string& text);
+
+}  // namespace intaglio::cli

@@ -1,0 +1,48 @@
+// The maps that a surface wears: heights, normals with heights in alpha, and colours, all from one source.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "generator/base/result.h"
+#include "src/maps/image.h"
+#include "src/reference/height_field.h"
+#include "src/vulkan/texture.h"
+
+namespace intaglio::measure {
+
+struct MapSet {
+    std::string name;
+    maps::Image heights;        // one channel
+    maps::Image normal_height;  // normal in rgb, height in alpha
+    maps::Image colour;         // three channels, display-ready
+
+    reference::HeightField height_field(reference::FilterWeights weights) const;
+};
+
+// What of a map set is given as files; the rest is made: normals are baked from the heights with the relief's scale,
+// colours are a grey shade of the heights.
+struct MapFiles {
+    std::filesystem::path height;  // any PNG; heights in alpha where it has one that varies, else in red or gray
+    std::optional<std::filesystem::path> normal;
+    std::optional<std::filesystem::path> colour;
+};
+
+// `scale`: depth of the relief in texture units, for baked normals.  Errors: those of maps::read_png, "map-sizes"
+// where the normal map has another size than the height map.
+Result<MapSet> load_map_set(const MapFiles& files, double scale);
+// A procedural map by the name of its maker (maps::makers()).
+Result<MapSet> make_map_set(const std::string& maker, int width, int height, double scale, std::uint32_t seed = 1);
+
+enum class Filtering {
+    Float,   // texels as float32, filtered exactly: what is left is the technique's own error
+    Native,  // as the file's precision: RGBA8 is filtered with 8-bit weights on lavapipe
+};
+
+// Textures as the device takes them, with all mip levels.
+vulkan::Texture height_texture(const MapSet& set, Filtering filtering);
+vulkan::Texture normal_texture(const MapSet& set, Filtering filtering);
+vulkan::Texture colour_texture(const MapSet& set);
+
+}  // namespace intaglio::measure

@@ -1,0 +1,167 @@
+// The measurement: rows are compiled once, prepared per map, drawn per view and light.
+#include "src/measure/measure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "src/check/spirv.h"
+#include "src/measure/render.h"
+
+namespace intaglio::measure {
+namespace {
+
+// A row's two shaders: the one that says where it hit and how much it read, and the one people would ship.
+struct CompiledRow {
+    check::Program instrumented;
+    check::Program shaded;
+    check::SpirvCost cost;
+    std::vector<std::string> settings;
+};
+
+Result<CompiledRow> compile_row(const dsl::Catalogue& catalogue, const VariantRequest& request) {
+    CompiledRow row;
+    const Result<Variant> shaded = make_variant(catalogue, request);
+    if (!shaded) return shaded.error();
+    row.settings = shaded->program.settings;
+    Result<check::Program> linked = link_variant(*shaded);
+    if (!linked) return linked.error();
+    row.shaded = std::move(*linked);
+    const Result<check::SpirvWords> optimized = check::optimize_spirv(row.shaded.pixel);
+    if (!optimized) return optimized.error();
+    const Result<check::SpirvCost> cost = check::count_spirv(*optimized, longest_loop(shaded->program));
+    if (!cost) return cost.error();
+    row.cost = *cost;
+
+    VariantRequest instrumented = request;
+    instrumented.surface = dsl::with_part(request.surface, "output", "displaced");
+    instrumented.count_reads = true;
+    const Result<Variant> variant = make_variant(catalogue, instrumented);
+    if (!variant) return variant.error();
+    linked = link_variant(*variant);
+    if (!linked) return linked.error();
+    row.instrumented = std::move(*linked);
+    return row;
+}
+
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+std::int64_t count_invalid(const vulkan::Picture& picture) {
+    return std::count_if(picture.pixels.begin(), picture.pixels.end(), [](const std::array<float, 4>& pixel) {
+        return !std::all_of(pixel.begin(), pixel.end(), [](float c) { return std::isfinite(c); });
+    });
+}
+
+void count_reads(const vulkan::Picture& reads, CaseResult& result) {
+    double sum = 0;
+    for (const std::array<float, 4>& pixel : reads.pixels) {
+        sum += static_cast<double>(pixel[0]);
+        result.reads_max = std::max(result.reads_max, static_cast<int>(pixel[0]));
+    }
+    result.reads_mean = sum / static_cast<double>(reads.pixels.size());
+}
+
+// Prepared programs of all rows on one map.
+struct PreparedMap {
+    reference::HeightField field;
+    std::vector<vulkan::Program> instrumented, shaded;
+};
+
+Result<PreparedMap> prepare_map(const vulkan::Device& device, const Plan& plan, const std::vector<CompiledRow>& rows,
+                                const MapSet& set) {
+    PreparedMap prepared{set.height_field(reference::FilterWeights::Exact), {}, {}};
+    const Textures textures(set, plan.filtering);
+    for (const CompiledRow& row : rows) {
+        for (auto [shaders, programs] : {std::pair{&row.instrumented, &prepared.instrumented}, std::pair{&row.shaded, &prepared.shaded}}) {
+            Result<vulkan::Program> program = prepare_quad(device, *shaders, textures, plan.scale, plan.size, plan.size);
+            if (!program) return program.error();
+            programs->push_back(std::move(*program));
+        }
+    }
+    return prepared;
+}
+
+// Times all rows in turn, round after round, so that what else the machine does falls on all alike.
+Status time_rows(const Plan& plan, std::vector<vulkan::Program>& programs, std::vector<CaseResult>& results) {
+    std::vector<std::vector<double>> times(programs.size()), ratios(programs.size());
+    for (int round = 0; round < plan.rounds; ++round) {
+        for (std::size_t row = 0; row < programs.size(); ++row) {
+            const Result<double> time = programs[row].time_draw();
+            if (!time) return time.error();
+            times[row].push_back(*time / (static_cast<double>(plan.size) * plan.size));
+            ratios[row].push_back(times[row].back() / times[0].back());
+        }
+    }
+    for (std::size_t row = 0; row < programs.size(); ++row) {
+        results[row].nanoseconds = median(times[row]);
+        results[row].ratio = median(ratios[row]);
+    }
+    return Done{};
+}
+
+Result<std::vector<CaseResult>> measure_view(const Plan& plan, PreparedMap& prepared, int map, Direction view, Direction light) {
+    const float scale = static_cast<float>(plan.scale);
+    const ExactPicture exact = trace_exact(prepared.field, view, light, scale, plan.size, plan.size);
+    std::vector<CaseResult> results(plan.rows.size());
+    for (std::size_t row = 0; row < plan.rows.size(); ++row) {
+        CaseResult& result = results[row];
+        result.row = static_cast<int>(row);
+        result.map = map;
+        result.view = view;
+        result.light = light;
+        for (std::vector<vulkan::Program>* programs : {&prepared.instrumented, &prepared.shaded})
+            if (Status status = aim((*programs)[row], view, light); !status) return status.error();
+        const Result<std::vector<vulkan::Picture>> pictures = prepared.instrumented[row].draw();
+        if (!pictures) return pictures.error();
+        result.hits = summarize(compare_hits((*pictures)[0], exact, prepared.field, view, scale), plan.size);
+        count_reads((*pictures)[1], result);
+        const Result<std::vector<vulkan::Picture>> shaded = prepared.shaded[row].draw();
+        if (!shaded) return shaded.error();
+        result.invalid_colours = count_invalid((*shaded)[0]);
+    }
+    if (plan.rounds > 0)
+        if (Status status = time_rows(plan, prepared.shaded, results); !status) return status.error();
+    return results;
+}
+
+}  // namespace
+
+Result<Measurement> measure(const dsl::Catalogue& catalogue, const Plan& plan,
+                            const std::function<void(int done, int all)>& progress) {
+    const Result<vulkan::Device> device = vulkan::Device::create({plan.device, plan.validation});
+    if (!device) return device.error();
+    Measurement measurement;
+    measurement.device = fmt::format("{}, {}", device->name(), device->driver());
+    std::vector<CompiledRow> rows;
+    for (const VariantRequest& request : plan.rows) {
+        Result<CompiledRow> row = compile_row(catalogue, request);
+        if (!row) return row.error();
+        measurement.costs.push_back(row->cost);
+        measurement.settings.push_back(row->settings);
+        rows.push_back(std::move(*row));
+    }
+    const int all = static_cast<int>(plan.maps.size() * plan.views.size() * plan.lights.size());
+    int done = 0;
+    for (std::size_t map = 0; map < plan.maps.size(); ++map) {
+        Result<PreparedMap> prepared = prepare_map(*device, plan, rows, plan.maps[map]);
+        if (!prepared) return prepared.error();
+        for (Direction view : plan.views)
+            for (Direction light : plan.lights) {
+                Result<std::vector<CaseResult>> results = measure_view(plan, *prepared, static_cast<int>(map), view, light);
+                if (!results) return results.error();
+                measurement.cases.insert(measurement.cases.end(), results->begin(), results->end());
+                if (progress) progress(++done, all);
+            }
+    }
+    if (const std::vector<std::string> messages = device->validation_messages(); !messages.empty())
+        return internal_error("vulkan-validation", "the Vulkan validation layer complains: " + messages.front());
+    return measurement;
+}
+
+}  // namespace intaglio::measure

@@ -1,0 +1,49 @@
+// Draws from shaders, maps and directions.
+#include "src/measure/render.h"
+
+namespace intaglio::measure {
+namespace {
+
+vulkan::Draw base_draw(const check::Program& shaders, const Textures& textures, int width, int height) {
+    vulkan::Draw draw;
+    // link_to_spirv names every entry point main, whatever the text called it.
+    draw.vertex.spirv = shaders.vertex;
+    draw.fragment.spirv = shaders.pixel;
+    draw.textures = {{"height_map", &textures.height}, {"normal_map", &textures.normal}, {"colour_map", &textures.colour}};
+    draw.width = width;
+    draw.height = height;
+    return draw;
+}
+
+}  // namespace
+
+Result<vulkan::Program> prepare_quad(const vulkan::Device& device, const check::Program& shaders, const Textures& textures,
+                                     double scale, int width, int height, const Look& look) {
+    const vulkan::Mesh quad = vulkan::quad();
+    vulkan::Draw draw = base_draw(shaders, textures, width, height);
+    draw.mesh = &quad;
+    draw.uniforms = uniforms_of({}, {}, scale, textures.height.width, textures.height.height, look);
+    return vulkan::Program::prepare(device, draw);
+}
+
+Status aim(vulkan::Program& program, Direction view, Direction light) {
+    const std::array<float, 3> v = vector_of(view);
+    const std::array<float, 3> l = vector_of(light);
+    if (Status status = program.set_uniform("eye", {v[0], v[1], v[2], 0}); !status) return status;
+    return program.set_uniform("light", {l[0], l[1], l[2], 0});
+}
+
+Result<vulkan::Program> prepare_mesh(const vulkan::Device& device, const check::Program& shaders, const Textures& textures,
+                                     double scale, int width, int height, const MeshView& view, const Look& look) {
+    vulkan::Draw draw = base_draw(shaders, textures, width, height);
+    draw.mesh = &view.mesh;
+    draw.uniforms = uniforms_of({}, {}, scale, textures.height.width, textures.height.height, look);
+    draw.uniforms["view_projection"] = {view.camera.view_projection.begin(), view.camera.view_projection.end()};
+    draw.uniforms["eye"] = {view.camera.eye[0], view.camera.eye[1], view.camera.eye[2], 1};
+    draw.uniforms["light"] = {view.light[0], view.light[1], view.light[2], 0};
+    draw.depth_test = true;
+    draw.clear = {0.012f, 0.013f, 0.016f, 1};
+    return vulkan::Program::prepare(device, draw);
+}
+
+}  // namespace intaglio::measure

@@ -1,0 +1,36 @@
+// Directions over a relief, and what a draw gets for them.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "src/reference/trace.h"
+
+namespace intaglio::measure {
+
+// A direction in tangent space.  Elevation 90 is straight above the surface, 0 is its horizon; azimuth 0 is along +u,
+// 90 along +v.  Degrees.
+struct Direction {
+    double elevation = 90;
+    double azimuth = 0;
+    bool operator==(const Direction&) const = default;
+};
+
+// The unit vector, rounded to float as shaders get it.
+std::array<float, 3> vector_of(Direction direction);
+reference::Vec3 exact_vector(const std::array<float, 3>& vector);
+
+// The lights and material of every draw.
+struct Look {
+    std::array<float, 3> ambient = {0.16f, 0.17f, 0.21f};
+    std::array<float, 3> light_colour = {1.0f, 0.96f, 0.88f};
+    float gloss = 0.25f;
+};
+
+// Values for every uniform of the templates, by name: the eye and the light at infinity, the world unmoved.
+std::map<std::string, std::vector<float>> uniforms_of(Direction view, Direction light, double scale, int map_width,
+                                                      int map_height, const Look& look = {});
+
+}  // namespace intaglio::measure

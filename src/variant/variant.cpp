@@ -1,0 +1,157 @@
+// From a request to artifacts.
+#include "src/variant/variant.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "generator/base/nearest.h"
+#include "generator/passes/count_texture_reads.h"
+#include "src/check/derive.h"
+#include "src/check/spirv.h"
+
+namespace intaglio {
+namespace {
+
+Result<const Target*> target_of(const VariantRequest& request) {
+    if (const Target* target = find_target(request.target)) return target;
+    std::vector<std::string> names;
+    for (const Target* target : all_targets()) names.emplace_back(target->name);
+    return input_error("unknown-target", unknown_name_sentence("target", request.target, names));
+}
+
+// The target whose text we print for this one.
+const Target& text_target(const Target& target) {
+    return target.derived_from.empty() ? target : *find_target(target.derived_from);
+}
+
+Result<dsl::Surface> surface_of(const dsl::Catalogue& catalogue, const VariantRequest& request) {
+    Result<dsl::Surface> surface = dsl::make_surface(catalogue, request.surface);
+    if (!surface) return surface;
+    for (const auto& [name, value] : request.knobs)
+        if (Status status = surface->set_knob(name, value); !status) return status.error();
+    return surface;
+}
+
+dsl::RecordOptions record_options(const VariantRequest& request) {
+    return {request.target, request.loop_forms, request.per_vertex};
+}
+
+int longest_loop_in(const ir::Region& region) {
+    int most = 1;
+    for (const ir::Instruction& instruction : region.body) {
+        if (instruction.op == ir::Op::Loop) most = std::max(most, instruction.loop.trip_count);
+        for (const ir::Region& inner : instruction.regions) most = std::max(most, longest_loop_in(inner));
+    }
+    return most;
+}
+
+std::string bytes_of(const check::SpirvWords& words) {
+    return {reinterpret_cast<const char*>(words.data()), words.size() * sizeof(words[0])};
+}
+
+}  // namespace
+
+Result<Variant> make_variant(const dsl::Catalogue& catalogue, const VariantRequest& request,
+                             const EmitOptions& options) {
+    const Result<const Target*> target = target_of(request);
+    if (!target) return target.error();
+    const Result<dsl::Surface> surface = surface_of(catalogue, request);
+    if (!surface) return surface.error();
+    Result<ir::Program> program = dsl::record_surface(*surface, record_options(request));
+    if (!program) return program.error();
+    if (request.count_reads) passes::count_texture_reads(program->pixel);
+
+    const Target& printed = text_target(**target);
+    Result<Artifact> pixel = emit(*program, ir::Stage::Pixel, printed, options);
+    if (!pixel) return pixel.error();
+    Result<Artifact> vertex = emit(*program, ir::Stage::Vertex, printed, options);
+    if (!vertex) return vertex.error();
+    return Variant{request, *target, std::move(*program), std::move(*vertex), std::move(*pixel)};
+}
+
+Result<Product> product_of(const Variant& variant, ir::Stage stage) {
+    const Artifact& artifact = stage == ir::Stage::Vertex ? variant.vertex : variant.pixel;
+    if (variant.target->derived_from.empty()) return Product{artifact.text, artifact.extension, false};
+    const check::Source source = source_of(variant, stage);
+    const std::string stage_extension = stage == ir::Stage::Vertex ? ".vert" : ".frag";
+    if (variant.target->name == "spirv") {
+        const Result<check::SpirvWords> words = check::derive_spirv(source);
+        if (!words) return words.error();
+        return Product{bytes_of(*words), stage_extension + ".spv", true};
+    }
+    Result<std::string> text = check::derive_msl(source);
+    if (!text) return text.error();
+    return Product{std::move(*text), stage_extension + ".metal", false};
+}
+
+Result<Artifact> make_function(const dsl::Catalogue& catalogue, const VariantRequest& request, dsl::FunctionPart part,
+                               Binding binding, const EmitOptions& options) {
+    const Result<const Target*> target = target_of(request);
+    if (!target) return target.error();
+    const Result<dsl::Surface> surface = surface_of(catalogue, request);
+    if (!surface) return surface.error();
+    const Result<ir::Program> program = dsl::record_function(*surface, part, record_options(request));
+    if (!program) return program.error();
+    return emit_function(program->pixel, **target, binding, options);
+}
+
+std::optional<check::Language> language_of(const Target& target) {
+    const std::string_view name = text_target(target).name;
+    for (check::Language language : {check::Language::Glsl450, check::Language::Glsl330, check::Language::Essl300,
+                                     check::Language::Hlsl5, check::Language::Hlsl3})
+        if (check::name_of(language) == name) return language;
+    return std::nullopt;
+}
+
+check::Source source_of(const Variant& variant, ir::Stage stage) {
+    const bool vertex = stage == ir::Stage::Vertex;
+    const Artifact& artifact = vertex ? variant.vertex : variant.pixel;
+    return {language_of(*variant.target).value_or(check::Language::Glsl450),
+            vertex ? check::Stage::Vertex : check::Stage::Pixel, artifact.text, artifact.entry,
+            fmt::format("{}.{}{}", variant.request.surface, variant.target->name, artifact.extension)};
+}
+
+Result<check::Program> link_variant(const Variant& variant) {
+    if (!language_of(*variant.target))
+        return input_error("not-runnable", fmt::format("target {} is a listing, not a shader that can be run", variant.target->name));
+    Result<check::Program> program =
+        check::link_to_spirv(source_of(variant, ir::Stage::Vertex), source_of(variant, ir::Stage::Pixel));
+    if (!program || variant.target->name != "spirv") return program;
+    for (check::SpirvWords* words : {&program->vertex, &program->pixel}) {
+        Result<check::SpirvWords> optimized = check::optimize_spirv(*words);
+        if (!optimized) return optimized.error();
+        *words = std::move(*optimized);
+    }
+    return program;
+}
+
+Result<Judged> judge_variant(const Variant& variant) {
+    if (!language_of(*variant.target))
+        return input_error("no-witness", fmt::format("no witness reads target {}", variant.target->name));
+    Judged judged;
+    for (ir::Stage stage : {ir::Stage::Vertex, ir::Stage::Pixel}) {
+        const Result<check::Witnessed> witnessed = check::judge(source_of(variant, stage));
+        if (!witnessed) return witnessed.error();
+        const std::string_view stage_name = stage == ir::Stage::Vertex ? "vertex" : "pixel";
+        for (const std::string& step : witnessed->steps) judged.steps.push_back(fmt::format("{}: {}", stage_name, step));
+        if (stage == ir::Stage::Pixel) {
+            const Result<check::SpirvCost> cost = check::count_spirv(witnessed->optimized, longest_loop(variant.program));
+            if (!cost) return cost.error();
+            judged.pixel_cost = *cost;
+        }
+        if (!variant.target->derived_from.empty()) {
+            const Result<Product> product = product_of(variant, stage);
+            if (!product) return product.error();
+            judged.steps.push_back(fmt::format("{}: {} derived", stage_name, variant.target->name));
+        }
+    }
+    const Result<check::Program> linked = link_variant(variant);
+    if (!linked) return linked.error();
+    judged.steps.push_back("both: stages fit each other");
+    return judged;
+}
+
+int longest_loop(const ir::Program& program) { return longest_loop_in(program.pixel.body); }
+
+}  // namespace intaglio
