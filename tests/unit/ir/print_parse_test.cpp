@@ -70,7 +70,7 @@ TEST(Print, WritesEachFloatSoThatItReadsBackToItsBits) {
     EXPECT_EQ(print_component(Scalar::Int, 0xffffffffu), "-1");
     EXPECT_EQ(print_component(Scalar::Bool, 1u), "true");
     Random random(1);
-    for (int i = 0; i < 100000; ++i) {
+    for (int i = 0; i < 20000; ++i) {
         const auto bits = static_cast<std::uint32_t>(random.bits());
         std::string text = "function \"f\" { %0 float1 = const ";
         text.append(print_component(Scalar::Float, bits)).append(" }");
@@ -82,7 +82,7 @@ TEST(Print, WritesEachFloatSoThatItReadsBackToItsBits) {
 
 TEST(Parse, UndoesPrintOnRandomModules) {
     int loops = 0;
-    for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+    for (std::uint64_t seed = 0; seed < 2000; ++seed) {
         testing::RandomModuleOptions options;
         options.instructions = 5 + static_cast<int>(seed % 90);
         const Module module = random_module(seed, options);
@@ -96,7 +96,7 @@ TEST(Parse, UndoesPrintOnRandomModules) {
         ASSERT_EQ(print(*again), text) << "seed " << seed;
         loops += text.find(" = loop ") != std::string::npos ? 1 : 0;
     }
-    EXPECT_GT(loops, 1000);  // otherwise the generator has stopped testing regions
+    EXPECT_GT(loops, 500);  // otherwise the generator has stopped testing regions
 }
 
 TEST(Parse, TakesTextWrittenByHand) {
@@ -181,10 +181,12 @@ TEST(Parse, RefusesNestingThatWouldExhaustTheStack) {
 // printed, and what then verifies reads back to itself.
 TEST(Parse, SurvivesDamage) {
     Random random(20240607);
+    std::vector<std::string> texts(10, march);
+    for (std::uint64_t seed = 0; seed < 30; ++seed)
+        texts.push_back(print(random_module(seed, {.instructions = 20})));
     int parsed = 0, verified = 0;
-    for (int i = 0; i < 20000; ++i) {
-        std::string text =
-            i % 4 == 0 ? march : print(random_module(static_cast<std::uint64_t>(i % 50)));
+    for (int i = 0; i < 6000; ++i) {
+        std::string text = texts[static_cast<std::size_t>(random.below(40))];
         for (int edits = random.between(1, 3); edits > 0 && !text.empty(); --edits) {
             const auto at = static_cast<std::size_t>(random.below(static_cast<int>(text.size())));
             const auto from = static_cast<std::size_t>(random.below(static_cast<int>(text.size())));
@@ -213,7 +215,7 @@ TEST(Parse, SurvivesDamage) {
         ASSERT_TRUE(*again == *module) << "edit " << i << "\n" << printed;
     }
     EXPECT_GT(parsed, verified);
-    EXPECT_GT(verified, 1000);
+    EXPECT_GT(verified, 300);
 }
 
 TEST(Print, SurvivesIdsAndIndexesOutOfRange) {

@@ -164,7 +164,7 @@ TEST(Texture, IsFlatWhereItsTexelsAre) {
 
 TEST(Texture, SurvivesAnyCoordinate) {
     constexpr double infinity = std::numeric_limits<double>::infinity(),
-                     not_a_number = std::nan("");
+                     not_a_number = std::numeric_limits<double>::quiet_NaN();
     for (auto wrap : {Texture::Wrap::Repeat, Texture::Wrap::Clamp})
         for (auto filter : {Texture::Filter::Nearest, Texture::Filter::Linear}) {
             Texture texture = counting(4, 4, 2);
