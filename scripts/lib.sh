@@ -3,6 +3,7 @@
 # shellcheck shell=bash
 
 root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+started_in="$PWD" command_line=("$0" "$@")  # of the script that sources this
 
 # Debian 12 names.  The versions there are the ones the project is tested with.
 # shellcheck disable=SC2034
@@ -28,16 +29,26 @@ fail() { printf 'error: %s\n' "$*" >&2; }
 quoted() { local text; printf -v text '%q ' "$@"; printf '%s' "${text% }"; }
 
 # step "what it is" command...: announces, runs, says how long it took.  A failing step names itself and the
-# command that repeats it, and ends the script with the command's exit code.
+# command that repeats it, and ends the script with the command's exit code.  The command may be a function of the
+# script: it runs in a subshell and ends at its first failing line.
 step() {
-    local title="$1" began=$SECONDS code=0
+    local title="$1" began=$SECONDS code
     shift
     say "$title"
-    note "$(quoted "$@")"
-    "$@" || code=$?
+    local folder="$root" rerun=("$@")
+    if declare -F "$1" >/dev/null; then
+        folder="$started_in" rerun=("${command_line[@]}")
+    else
+        note "$(quoted "$@")"
+    fi
+    # Not `"$@" || code=$?`: on the left of || bash ignores set -e, also inside functions.
+    set +e
+    (set -e; "$@")
+    code=$?
+    set -e
     if [ "$code" -ne 0 ]; then
         fail "step '$title' failed after $((SECONDS - began)) s with exit code $code; run it again with:"
-        printf '  cd %s && %s\n' "$(quoted "$root")" "$(quoted "$@")" >&2
+        printf '  cd %s && %s\n' "$(quoted "$folder")" "$(quoted "${rerun[@]}")" >&2
         exit "$code"
     fi
     note "done in $((SECONDS - began)) s"
