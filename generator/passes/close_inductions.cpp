@@ -1,6 +1,7 @@
-// An induction v' = v + c, with c from outside the loop: the parameter v becomes start + i * c at the top of the body,
-// and v' becomes start + (i + 1) * c, so that v of one iteration is v' of the one before, to the bit.  The carried value
-// itself stays for the loop's result; remove_dead_code takes it away where nothing needs it.
+// An induction v' = v + c, with c from outside the loop: the parameter v becomes start + i * c at
+// the top of the body, and v' becomes start + (i + 1) * c, so that v of one iteration is v' of the
+// one before, to the bit.  The carried value itself stays for the loop's result; remove_dead_code
+// takes it away where nothing needs it.
 #include "generator/passes/close_inductions.h"
 
 #include <algorithm>
@@ -40,7 +41,8 @@ class Closer {
             for (Region& inner : instruction.regions) visit(inner);
             if (instruction.op != Op::Loop) continue;
             for (std::size_t k = 0; k < instruction.operands.size(); ++k)
-                if (const auto induction = find_induction(instruction, k)) close(instruction, *induction);
+                if (const auto induction = find_induction(instruction, k))
+                    close(instruction, *induction);
         }
     }
 
@@ -48,13 +50,17 @@ class Closer {
         const Region& region = loop.regions[0];
         const ValueId parameter = region.parameters[k + 1];
         if (module_.type(parameter).scalar == Scalar::Bool) return std::nullopt;
-        if (module_.type(parameter).scalar == Scalar::Float && !loop.loop.closed_form) return std::nullopt;
+        if (module_.type(parameter).scalar == Scalar::Float && !loop.loop.closed_form)
+            return std::nullopt;
         const ValueId next = region.body.back().operands[k];
-        const auto found = std::find_if(region.body.begin(), region.body.end(), [&](const Instruction& instruction) {
-            return instruction.results.size() == 1 && instruction.result() == next;
-        });
-        if (found == region.body.end() || (found->op != Op::Add && found->op != Op::Sub)) return std::nullopt;
-        Induction induction{k, static_cast<std::size_t>(found - region.body.begin()), found->op, found->operands[1]};
+        const auto found = std::find_if(
+            region.body.begin(), region.body.end(), [&](const Instruction& instruction) {
+                return instruction.results.size() == 1 && instruction.result() == next;
+            });
+        if (found == region.body.end() || (found->op != Op::Add && found->op != Op::Sub))
+            return std::nullopt;
+        Induction induction{k, static_cast<std::size_t>(found - region.body.begin()), found->op,
+                            found->operands[1]};
         if (found->op == Op::Add && found->operands[1] == parameter)
             induction.step = found->operands[0];
         else if (found->operands[0] != parameter)
@@ -68,7 +74,9 @@ class Closer {
             return std::find(values.begin(), values.end(), value) != values.end();
         };
         bool found = contains(region.parameters);
-        for_each_instruction(region, [&](const Instruction& instruction) { found |= contains(instruction.results); });
+        for_each_instruction(region, [&](const Instruction& instruction) {
+            found |= contains(instruction.results);
+        });
         return found;
     }
 
@@ -96,12 +104,14 @@ class Closer {
     }
 
     // start + index * step
-    void closed_form(std::vector<Instruction>& code, ValueId index, ValueId start, const Induction& induction,
-                     const Origin& origin) {
+    void closed_form(std::vector<Instruction>& code, ValueId index, ValueId start,
+                     const Induction& induction, const Origin& origin) {
         const Type type = module_.type(start);
         ValueId factor = index;
-        if (type.scalar == Scalar::Float) factor = append(code, Op::ToFloat, float1, {&factor, 1}, origin);
-        if (type.width > 1) factor = append(code, Op::Swizzle, type, {&factor, 1}, origin);  // lanes 0: .xx
+        if (type.scalar == Scalar::Float)
+            factor = append(code, Op::ToFloat, float1, {&factor, 1}, origin);
+        if (type.width > 1)
+            factor = append(code, Op::Swizzle, type, {&factor, 1}, origin);  // lanes 0: .xx
         const std::array factors = {factor, induction.step};
         const ValueId product = append(code, Op::Mul, type, factors, origin);
         if (type.scalar == Scalar::Float && is_zero(start)) {
@@ -112,8 +122,8 @@ class Closer {
         append(code, induction.op, type, terms, origin);
     }
 
-    ValueId append(std::vector<Instruction>& code, Op op, Type type, std::span<const ValueId> operands,
-                   const Origin& origin) {
+    ValueId append(std::vector<Instruction>& code, Op op, Type type,
+                   std::span<const ValueId> operands, const Origin& origin) {
         code.push_back(make_instruction(module_, op, type, operands, origin));
         return code.back().result();
     }
@@ -133,10 +143,10 @@ class Closer {
         if (name.empty()) name = fmt::format("carried value {}", induction.k + 1);
         const std::string place = place_of(module_, region.body[induction.next].origin);
         const bool rounds = module_.type(parameter).scalar == Scalar::Float;
-        sentences_.push_back(fmt::format("{}{}in loop '{}', {} is computed from the index as start {} i * step{}", place,
-                                         place.empty() ? "" : ": ", loop.loop.name, name,
-                                         induction.op == Op::Add ? "+" : "-",
-                                         rounds ? ", which rounds differently" : ""));
+        sentences_.push_back(fmt::format(
+            "{}{}in loop '{}', {} is computed from the index as start {} i * step{}", place,
+            place.empty() ? "" : ": ", loop.loop.name, name, induction.op == Op::Add ? "+" : "-",
+            rounds ? ", which rounds differently" : ""));
     }
 
     Module& module_;

@@ -1,5 +1,6 @@
-// An int counter runs through the module beside its values: reads of straight code are summed while generating and
-// added where control flow parts or joins; loops carry it, break_ifs and yields deliver it.
+// An int counter runs through the module beside its values: reads of straight code are summed while
+// generating and added where control flow parts or joins; loops carry it, break_ifs and yields
+// deliver it.
 #include "generator/passes/count_texture_reads.h"
 
 #include "generator/passes/rewrite.h"
@@ -18,8 +19,10 @@ class Counter {
         const ValueId start = zero.result();
         module_.body.body.insert(module_.body.body.begin(), std::move(zero));
         visit(module_.body, start);
-        constexpr Semantic semantics[] = {Semantic::Interpolant, Semantic::Target, Semantic::Result};
-        module_.outputs.push_back({"reads", float4, semantics[static_cast<std::size_t>(module_.stage)]});
+        constexpr Semantic semantics[] = {Semantic::Interpolant, Semantic::Target,
+                                          Semantic::Result};
+        module_.outputs.push_back(
+            {"reads", float4, semantics[static_cast<std::size_t>(module_.stage)]});
     }
 
   private:
@@ -28,7 +31,8 @@ class Counter {
         int pending = 0;  // reads since then
         rebuild(region, [&](Instruction instruction, std::vector<Instruction>& body) {
             if (is_sample(instruction.op)) ++pending;
-            const bool joins = instruction.op == Op::BreakIf || is_terminator(instruction.op) || counts_inside(instruction);
+            const bool joins = instruction.op == Op::BreakIf || is_terminator(instruction.op) ||
+                               counts_inside(instruction);
             if (joins && pending > 0) {
                 body.push_back(make_int_constant(module_, pending, instruction.origin));
                 const std::array terms = {count, body.back().result()};
@@ -37,7 +41,8 @@ class Counter {
                 pending = 0;
             }
             if (instruction.op == Op::Return) return finish(std::move(instruction), count, body);
-            if (instruction.op == Op::BreakIf || instruction.op == Op::Yield) instruction.operands.push_back(count);
+            if (instruction.op == Op::BreakIf || instruction.op == Op::Yield)
+                instruction.operands.push_back(count);
             if (counts_inside(instruction)) count = carry(instruction, count);
             body.push_back(std::move(instruction));
         });
@@ -49,7 +54,8 @@ class Counter {
         return false;
     }
 
-    // Gives a loop or if the counter as a further carried value or result; returns the count after it.
+    // Gives a loop or if the counter as a further carried value or result; returns the count after
+    // it.
     ValueId carry(Instruction& instruction, ValueId count) {
         for (Region& region : instruction.regions) {
             ValueId inside = count;

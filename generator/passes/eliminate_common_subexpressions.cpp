@@ -1,5 +1,5 @@
-// Value numbering over the region tree: a table of the expressions that are available here.  Leaving a region forgets
-// what it added.  Loops and ifs themselves are never merged.
+// Value numbering over the region tree: a table of the expressions that are available here. Leaving
+// a region forgets what it added.  Loops and ifs themselves are never merged.
 #include "generator/passes/eliminate_common_subexpressions.h"
 
 #include <algorithm>
@@ -27,8 +27,11 @@ struct Expression {
 struct ExpressionHash {
     std::size_t operator()(const Expression& expression) const {
         std::size_t hash = static_cast<std::size_t>(expression.op);
-        const auto mix = [&](std::size_t value) { hash = (hash ^ value) * 0x9e3779b97f4a7c15ull + (hash >> 29); };
-        mix(static_cast<std::size_t>(expression.type.width) * 4 + static_cast<std::size_t>(expression.type.scalar));
+        const auto mix = [&](std::size_t value) {
+            hash = (hash ^ value) * 0x9e3779b97f4a7c15ull + (hash >> 29);
+        };
+        mix(static_cast<std::size_t>(expression.type.width) * 4 +
+            static_cast<std::size_t>(expression.type.scalar));
         for (ValueId operand : expression.operands) mix(index_of(operand));
         for (std::uint32_t bits : expression.bits) mix(bits);
         for (std::uint8_t lane : expression.lanes) mix(lane);
@@ -41,23 +44,29 @@ struct ExpressionHash {
 // Exact in either order.  Min and max are not: of two zeros either may come out.
 bool is_commutative(Op op) {
     switch (op) {
-        case Op::Add: case Op::Mul: case Op::Dot: case Op::Equal: case Op::NotEqual: case Op::And: case Op::Or:
-            return true;
+        case Op::Add:
+        case Op::Mul:
+        case Op::Dot:
+        case Op::Equal:
+        case Op::NotEqual:
+        case Op::And:
+        case Op::Or: return true;
         default: return false;
     }
 }
 
 // The same expression in one spelling.
 Expression canonical(const Module& module, const Instruction& instruction) {
-    Expression expression{instruction.op,    module.type(instruction.result()),
+    Expression expression{instruction.op,       module.type(instruction.result()),
                           instruction.operands, instruction.bits,
-                          instruction.lanes, instruction.slot,
+                          instruction.lanes,    instruction.slot,
                           instruction.element};
     const bool turned = instruction.op == Op::Greater || instruction.op == Op::GreaterEqual;
     if (instruction.op == Op::Greater) expression.op = Op::Less;
     if (instruction.op == Op::GreaterEqual) expression.op = Op::LessEqual;
     if (turned) std::swap(expression.operands[0], expression.operands[1]);
-    if (is_commutative(instruction.op)) std::sort(expression.operands.begin(), expression.operands.end());
+    if (is_commutative(instruction.op))
+        std::sort(expression.operands.begin(), expression.operands.end());
     return expression;
 }
 
@@ -70,7 +79,8 @@ class Merger {
         rebuild(region, [&](Instruction instruction, std::vector<Instruction>& body) {
             substitution_.apply(instruction.operands);
             for (Region& inner : instruction.regions) visit(inner);
-            if ((is_arithmetic(instruction.op) || is_sample(instruction.op) || needs_derivatives(instruction.op)) &&
+            if ((is_arithmetic(instruction.op) || is_sample(instruction.op) ||
+                 needs_derivatives(instruction.op)) &&
                 !is_first(instruction, added))
                 return;
             body.push_back(std::move(instruction));
@@ -87,8 +97,9 @@ class Merger {
             return true;
         }
         merge_names(instruction, entry->second);
-        substitution_.replace(instruction.result(), entry->second,
-                              is_leaf(instruction.op) ? Substitution::Name::Leave : Substitution::Name::TakeOver);
+        substitution_.replace(
+            instruction.result(), entry->second,
+            is_leaf(instruction.op) ? Substitution::Name::Leave : Substitution::Name::TakeOver);
         return false;
     }
 

@@ -1,5 +1,6 @@
-// The bodies of both sides go straight into the region around the outermost flattened if, so that a chain of nested
-// ifs, as unrolling an early exit leaves it, costs time in proportion to its instructions.
+// The bodies of both sides go straight into the region around the outermost flattened if, so that a
+// chain of nested ifs, as unrolling an early exit leaves it, costs time in proportion to its
+// instructions.
 #include "generator/passes/flatten_branches.h"
 
 #include "generator/passes/rewrite.h"

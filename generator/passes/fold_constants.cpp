@@ -1,5 +1,6 @@
-// One walk in execution order, so that every operand is already simplified.  An instruction is rewritten in place until
-// nothing applies: it then keeps its result, name and origin.  Where it turns out to be another value, uses are replaced.
+// One walk in execution order, so that every operand is already simplified.  An instruction is
+// rewritten in place until nothing applies: it then keeps its result, name and origin.  Where it
+// turns out to be another value, uses are replaced.
 #include "generator/passes/fold_constants.h"
 
 #include <algorithm>
@@ -64,7 +65,8 @@ class Folder {
 
     void visit(Region& region) {
         const std::size_t known = learned_.size();
-        rebuild(region, [&](Instruction instruction, Body& body) { fold(std::move(instruction), body); });
+        rebuild(region,
+                [&](Instruction instruction, Body& body) { fold(std::move(instruction), body); });
         forget(known);
     }
 
@@ -110,7 +112,8 @@ class Folder {
         Region& region = loop.regions[0];
         const int trips = loop.loop.trip_count;
         if (trips <= 0) {
-            for (std::size_t k = 0; k < loop.results.size(); ++k) replace(loop.results[k], loop.operands[k]);
+            for (std::size_t k = 0; k < loop.results.size(); ++k)
+                replace(loop.results[k], loop.operands[k]);
             return;
         }
         if (trips == 1 && !contains_break(region)) {
@@ -118,7 +121,8 @@ class Folder {
             definitions_.record(index);
             replace(region.parameters[0], index.result());
             body.push_back(std::move(index));
-            for (std::size_t k = 0; k < loop.operands.size(); ++k) replace(region.parameters[k + 1], loop.operands[k]);
+            for (std::size_t k = 0; k < loop.operands.size(); ++k)
+                replace(region.parameters[k + 1], loop.operands[k]);
             inline_region(region, loop.results, body);
             return;
         }
@@ -131,9 +135,10 @@ class Folder {
     // A break that is certain ends the first iteration that reaches it; there is no second.
     void end_at_certain_break(Instruction& loop) {
         Body& code = loop.regions[0].body;
-        const auto certain = std::find_if(code.begin(), code.end(), [&](const Instruction& instruction) {
-            return instruction.op == Op::BreakIf && truth_of(instruction.operands[0]) == true;
-        });
+        const auto certain =
+            std::find_if(code.begin(), code.end(), [&](const Instruction& instruction) {
+                return instruction.op == Op::BreakIf && truth_of(instruction.operands[0]) == true;
+            });
         if (certain == code.end()) return;
         certain->op = Op::Yield;
         certain->operands.erase(certain->operands.begin());
@@ -157,7 +162,8 @@ class Folder {
                 continue;
             }
             substitution_.apply(instruction.operands);
-            for (std::size_t k = 0; k < results.size(); ++k) replace(results[k], instruction.operands[k]);
+            for (std::size_t k = 0; k < results.size(); ++k)
+                replace(results[k], instruction.operands[k]);
         }
     }
 
@@ -185,7 +191,8 @@ class Folder {
 
     const Bits* constant_of(ValueId value) const {
         static constexpr Bits known[2] = {{0, 0, 0, 0}, {1, 0, 0, 0}};
-        if (const auto truth = truths_.find(value); truth != truths_.end()) return &known[truth->second ? 1 : 0];
+        if (const auto truth = truths_.find(value); truth != truths_.end())
+            return &known[truth->second ? 1 : 0];
         const Definition& definition = definitions_[value];
         return definition.op == Op::Constant ? &definition.bits : nullptr;
     }
@@ -196,7 +203,8 @@ class Folder {
         const ValueId result = instruction.result();
         for (bool changed = true; changed;) {
             if (evaluate(instruction)) break;
-            changed = apply_rules(instruction) || simplify_shape(module_, definitions_, instruction) ||
+            changed = apply_rules(instruction) ||
+                      simplify_shape(module_, definitions_, instruction) ||
                       divide_by_power_of_two(instruction, body);
             if (instruction.op == Op::Yield) {  // it is its operand
                 replace(result, instruction.operands[0]);
@@ -217,7 +225,8 @@ class Folder {
             types.push_back(module_.type(operand));
             operands.push_back(*bits);
         }
-        const auto bits = evaluate_op(instruction, types, operands, module_.type(instruction.result()).width);
+        const auto bits =
+            evaluate_op(instruction, types, operands, module_.type(instruction.result()).width);
         if (bits) become_constant(instruction, *bits);
         return bits.has_value();
     }
@@ -241,7 +250,9 @@ class Folder {
 
     struct Bindings {
         std::array<std::optional<ValueId>, 4> values;
-        std::optional<ValueId>& operator[](char variable) { return values[static_cast<std::size_t>(variable - 'a')]; }
+        std::optional<ValueId>& operator[](char variable) {
+            return values[static_cast<std::size_t>(variable - 'a')];
+        }
     };
 
     bool matches_operands(const Pattern& pattern, Domain domain, std::span<const ValueId> operands,
@@ -255,7 +266,8 @@ class Folder {
         const Type type = module_.type(value);
         switch (pattern.kind) {
             case Pattern::Kind::Variable: {
-                if (pattern.variable <= 'b' ? !is_in(type.scalar, domain) : type != bool1) return false;
+                if (pattern.variable <= 'b' ? !is_in(type.scalar, domain) : type != bool1)
+                    return false;
                 std::optional<ValueId>& bound = bindings[pattern.variable];
                 if (!bound) bound = value;
                 return *bound == value;
@@ -276,7 +288,8 @@ class Folder {
         return false;
     }
 
-    // False, and nothing changed, if the right side has another type: a select between bool4 is no bool1.
+    // False, and nothing changed, if the right side has another type: a select between bool4 is no
+    // bool1.
     bool rewrite(Instruction& instruction, const Pattern& right, Bindings& bindings) {
         const Type type = module_.type(instruction.result());
         if (right.kind == Pattern::Kind::Constant) {
@@ -324,7 +337,8 @@ class Folder {
 
     void replace(ValueId from, ValueId to) {
         substitution_.replace(from, to,
-                              is_leaf(definitions_[to].op) ? Substitution::Name::Leave : Substitution::Name::TakeOver);
+                              is_leaf(definitions_[to].op) ? Substitution::Name::Leave
+                                                           : Substitution::Name::TakeOver);
     }
 
     Module& module_;
@@ -338,7 +352,8 @@ class Folder {
 }  // namespace
 
 void fold_constants(ir::Module& module) {
-    while (Folder(module).run()) {}
+    while (Folder(module).run()) {
+    }
     compact_values(module);
 }
 

@@ -1,5 +1,6 @@
-// Every value has a depth: the number of loops around its definition.  In a loop at depth d, an instruction whose
-// operands are all of a depth below d may move out, to depth d - 1, where it is judged again.
+// Every value has a depth: the number of loops around its definition.  In a loop at depth d, an
+// instruction whose operands are all of a depth below d may move out, to depth d - 1, where it is
+// judged again.
 #include "generator/passes/hoist_loop_invariants.h"
 
 #include <algorithm>
@@ -15,15 +16,17 @@ class Hoister {
   public:
     explicit Hoister(Module& module) : depths_(module.values.size()) {}
 
-    // One region at a depth.  `hoisted` collects what leaves the innermost loop (null outside loops); `always`: the
-    // first iteration of that loop executes the region.
+    // One region at a depth.  `hoisted` collects what leaves the innermost loop (null outside
+    // loops); `always`: the first iteration of that loop executes the region.
     void visit(Region& region, int depth, std::vector<Instruction>* hoisted, bool always) {
         for (ValueId parameter : region.parameters) set_depth(parameter, depth);
         rebuild(region, [&](Instruction instruction, std::vector<Instruction>& body) {
             if (instruction.op == Op::Loop) {
                 std::vector<Instruction> invariant;
-                visit(instruction.regions[0], depth + 1, &invariant, instruction.loop.trip_count > 0);
-                for (Instruction& moved : invariant) place(std::move(moved), depth, body, hoisted, always);
+                visit(instruction.regions[0], depth + 1, &invariant,
+                      instruction.loop.trip_count > 0);
+                for (Instruction& moved : invariant)
+                    place(std::move(moved), depth, body, hoisted, always);
             } else {
                 for (Region& inner : instruction.regions) visit(inner, depth, hoisted, false);
             }
@@ -35,19 +38,23 @@ class Hoister {
   private:
     void place(Instruction instruction, int depth, std::vector<Instruction>& body,
                std::vector<Instruction>* hoisted, bool always) {
-        const bool moves = hoisted != nullptr && may_move(instruction, always) && is_invariant(instruction, depth);
+        const bool moves =
+            hoisted != nullptr && may_move(instruction, always) && is_invariant(instruction, depth);
         const int new_depth = moves ? depth - 1 : depth;
         for (ValueId result : instruction.results) set_depth(result, new_depth);
-        if (moves) for (const Region& region : instruction.regions) lift(region);
+        if (moves)
+            for (const Region& region : instruction.regions) lift(region);
         (moves ? *hoisted : body).push_back(std::move(instruction));
     }
 
     static bool may_move(const Instruction& instruction, bool always) {
         if (is_arithmetic(instruction.op)) return true;
-        return always && (is_sample(instruction.op) || has_regions(instruction.op)) && !needs_derivatives(instruction.op);
+        return always && (is_sample(instruction.op) || has_regions(instruction.op)) &&
+               !needs_derivatives(instruction.op);
     }
 
-    // Values inside a region count as outside if the region itself moves: they are marked as one of its own.
+    // Values inside a region count as outside if the region itself moves: they are marked as one of
+    // its own.
     bool is_invariant(const Instruction& instruction, int depth) const {
         std::vector<bool> own;
         if (has_regions(instruction.op)) {
@@ -57,7 +64,8 @@ class Hoister {
         bool invariant = true;
         const auto check = [&](const std::vector<ValueId>& operands) {
             for (ValueId operand : operands)
-                invariant = invariant && (depths_[index_of(operand)] < depth || (!own.empty() && own[index_of(operand)]));
+                invariant = invariant && (depths_[index_of(operand)] < depth ||
+                                          (!own.empty() && own[index_of(operand)]));
         };
         check(instruction.operands);
         for (const Region& region : instruction.regions)

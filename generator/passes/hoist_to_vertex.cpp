@@ -1,6 +1,7 @@
-// Each value of the pixel stage is constant over the draw, affine in interpolants, or other.  An affine value that
-// something not affine uses is a root; the arithmetic below the roots is what can be saved.  One root moves at a time,
-// on a copy of the program, so that the limits are judged after dead code is gone.
+// Each value of the pixel stage is constant over the draw, affine in interpolants, or other.  An
+// affine value that something not affine uses is a root; the arithmetic below the roots is what can
+// be saved.  One root moves at a time, on a copy of the program, so that the limits are judged
+// after dead code is gone.
 #include "generator/passes/hoist_to_vertex.h"
 
 #include <algorithm>
@@ -22,7 +23,9 @@ enum class Kind : std::uint8_t { Other, Draw, Affine };
 class Analysis {
   public:
     explicit Analysis(const Program& program)
-        : program_(program), kinds_(program.pixel.values.size()), definitions_(program.pixel.values.size()) {
+        : program_(program),
+          kinds_(program.pixel.values.size()),
+          definitions_(program.pixel.values.size()) {
         for_each_instruction(program.pixel.body, [&](const Instruction& instruction) {
             if (instruction.results.size() != 1 || has_regions(instruction.op)) return;
             definitions_[index_of(instruction.result())] = &instruction;
@@ -77,10 +80,18 @@ class Analysis {
             if (kind(operand) == Kind::Affine) ++affine;
         }
         if (affine == 0) return Kind::Draw;
-        const auto is_draw = [&](std::size_t i) { return kind(instruction.operands[i]) == Kind::Draw; };
+        const auto is_draw = [&](std::size_t i) {
+            return kind(instruction.operands[i]) == Kind::Draw;
+        };
         switch (instruction.op) {
-            case Op::Add: case Op::Sub: case Op::Neg: case Op::Swizzle: case Op::Compose: return Kind::Affine;
-            case Op::Mul: case Op::Dot: case Op::Cross: return affine == 1 ? Kind::Affine : Kind::Other;
+            case Op::Add:
+            case Op::Sub:
+            case Op::Neg:
+            case Op::Swizzle:
+            case Op::Compose: return Kind::Affine;
+            case Op::Mul:
+            case Op::Dot:
+            case Op::Cross: return affine == 1 ? Kind::Affine : Kind::Other;
             case Op::Div: return is_draw(1) ? Kind::Affine : Kind::Other;
             case Op::Lerp: return is_draw(2) ? Kind::Affine : Kind::Other;
             default: return Kind::Other;
@@ -89,11 +100,13 @@ class Analysis {
 
     // Affine if the vertex stage has the value.
     Kind classify_input(const Instruction& instruction) const {
-        const Declaration& input = program_.pixel.inputs[static_cast<std::size_t>(instruction.slot)];
+        const Declaration& input =
+            program_.pixel.inputs[static_cast<std::size_t>(instruction.slot)];
         const auto& outputs = program_.vertex.outputs;
-        const bool known = std::any_of(outputs.begin(), outputs.end(), [&](const Declaration& output) {
-            return output.semantic == Semantic::Interpolant && output.name == input.name;
-        });
+        const bool known =
+            std::any_of(outputs.begin(), outputs.end(), [&](const Declaration& output) {
+                return output.semantic == Semantic::Interpolant && output.name == input.name;
+            });
         return known && input.semantic == Semantic::Interpolant ? Kind::Affine : Kind::Other;
     }
 
@@ -101,7 +114,9 @@ class Analysis {
         int count = 0;
         for (ValueId value : cone(root)) {
             const Op op = definition(value).op;
-            if (kind(value) == Kind::Affine && !is_leaf(op) && op != Op::Swizzle && op != Op::Compose) ++count;
+            if (kind(value) == Kind::Affine && !is_leaf(op) && op != Op::Swizzle &&
+                op != Op::Compose)
+                ++count;
         }
         return count;
     }
@@ -130,20 +145,26 @@ int find_or_add(std::vector<T>& elements, const T& element) {
 // Copies a cone of the pixel stage to the end of the vertex stage.
 class Transplant {
   public:
-    Transplant(const Module& pixel, Module& vertex) : pixel_(pixel), vertex_(vertex), copy_(pixel, vertex) {}
+    Transplant(const Module& pixel, Module& vertex)
+        : pixel_(pixel), vertex_(vertex), copy_(pixel, vertex) {}
 
     void add(const Instruction& instruction) {
         if (instruction.op == Op::Input) {
-            copy_.bind(instruction.result(), output_named(pixel_.inputs[static_cast<std::size_t>(instruction.slot)].name));
+            copy_.bind(
+                instruction.result(),
+                output_named(pixel_.inputs[static_cast<std::size_t>(instruction.slot)].name));
             return;
         }
         Instruction copied = copy_.clone(instruction);
         if (instruction.op == Op::Uniform)
-            copied.slot = find_or_add(vertex_.uniforms, pixel_.uniforms[static_cast<std::size_t>(instruction.slot)]);
+            copied.slot = find_or_add(vertex_.uniforms,
+                                      pixel_.uniforms[static_cast<std::size_t>(instruction.slot)]);
         if (instruction.origin.file >= 0)
-            copied.origin.file = find_or_add(vertex_.files, pixel_.files[static_cast<std::size_t>(instruction.origin.file)]);
+            copied.origin.file = find_or_add(
+                vertex_.files, pixel_.files[static_cast<std::size_t>(instruction.origin.file)]);
         if (instruction.origin.step >= 0)
-            copied.origin.step = find_or_add(vertex_.steps, pixel_.steps[static_cast<std::size_t>(instruction.origin.step)]);
+            copied.origin.step = find_or_add(
+                vertex_.steps, pixel_.steps[static_cast<std::size_t>(instruction.origin.step)]);
         std::vector<Instruction>& body = vertex_.body.body;
         body.insert(body.end() - 1, std::move(copied));
     }
@@ -153,7 +174,9 @@ class Transplant {
   private:
     ValueId output_named(const std::string& name) const {
         std::size_t i = 0;
-        while (vertex_.outputs[i].semantic != Semantic::Interpolant || vertex_.outputs[i].name != name) ++i;
+        while (vertex_.outputs[i].semantic != Semantic::Interpolant ||
+               vertex_.outputs[i].name != name)
+            ++i;
         return vertex_.body.body.back().operands[i];
     }
 
@@ -167,7 +190,8 @@ bool declares(const Module& module, const std::string& name) {
     const auto any = [&](const auto& declarations) {
         return std::any_of(declarations.begin(), declarations.end(), named);
     };
-    return any(module.inputs) || any(module.outputs) || any(module.uniforms) || any(module.samplers);
+    return any(module.inputs) || any(module.outputs) || any(module.uniforms) ||
+           any(module.samplers);
 }
 
 std::string unused_name(const Program& program, std::string name) {
@@ -178,12 +202,12 @@ std::string unused_name(const Program& program, std::string name) {
     return candidate;
 }
 
-// Two uniforms of one name that differ cannot both be declared.
-bool uniforms_agree(const Program& program) {
+// Of two uniforms of one name that differ, both cannot be declared in the vertex stage.
+const Uniform* conflicting_uniform(const Program& program) {
     for (const Uniform& pixel : program.pixel.uniforms)
         for (const Uniform& vertex : program.vertex.uniforms)
-            if (pixel.name == vertex.name && pixel != vertex) return false;
-    return true;
+            if (pixel.name == vertex.name && pixel != vertex) return &pixel;
+    return nullptr;
 }
 
 bool fits(const Module& pixel, const InterpolantLimits& limits) {
@@ -202,8 +226,8 @@ std::optional<Program> move_root(const Program& program, const Analysis& analysi
     Program moved = program;
     Transplant transplant(program.pixel, moved.vertex);
     for (ValueId value : analysis.cone(root)) transplant.add(analysis.definition(value));
-    const Declaration declaration{unused_name(program, program.pixel.value(root).name), program.pixel.type(root),
-                                  Semantic::Interpolant};
+    const Declaration declaration{unused_name(program, program.pixel.value(root).name),
+                                  program.pixel.type(root), Semantic::Interpolant};
     moved.vertex.outputs.push_back(declaration);
     moved.vertex.body.body.back().operands.push_back(transplant(root));
     moved.pixel.inputs.push_back(declaration);
@@ -224,18 +248,24 @@ std::optional<Program> move_root(const Program& program, const Analysis& analysi
 
 std::vector<std::string> hoist_to_vertex(ir::Program& program, const InterpolantLimits& limits) {
     std::vector<std::string> sentences;
-    if (!program.per_vertex || !uniforms_agree(program)) return sentences;
+    if (!program.per_vertex) return sentences;
+    if (const Uniform* conflict = conflicting_uniform(program))
+        return {fmt::format(
+            "nothing is computed per vertex: the stages declare uniform '{}' differently",
+            conflict->name)};
     for (bool any = true; any;) {
         any = false;
         const Analysis analysis(program);
         for (const Analysis::Root& root : analysis.roots()) {
             std::optional<Program> moved = move_root(program, analysis, root.value, limits);
             if (!moved) continue;
-            const std::string place = place_of(program.pixel, analysis.definition(root.value).origin);
-            sentences.push_back(fmt::format("{}{}{} is computed per vertex and interpolated, which saves {} pixel "
-                                            "instruction{} and rounds differently",
-                                            place, place.empty() ? "" : ": ", moved->vertex.outputs.back().name,
-                                            root.saved, root.saved == 1 ? "" : "s"));
+            const std::string place =
+                place_of(program.pixel, analysis.definition(root.value).origin);
+            sentences.push_back(
+                fmt::format("{}{}{} is computed per vertex and interpolated, which saves {} pixel "
+                            "instruction{} and rounds differently",
+                            place, place.empty() ? "" : ": ", moved->vertex.outputs.back().name,
+                            root.saved, root.saved == 1 ? "" : "s"));
             program = std::move(*moved);
             any = true;
             break;

@@ -14,14 +14,17 @@ struct InterpolantLimits {
     int components = 32;
 };
 
-// Interpolation keeps affine functions: f(lerp(a, b)) = lerp(f(a), f(b)).  So with the program's consent (`per_vertex`),
-// the largest subexpressions of the pixel stage that are affine in interpolants (sums, differences, negation, products
-// and quotients with a value that is the same for the whole draw, swizzles, compositions) become interpolants of their
-// own, computed from the vertex stage's outputs; those that save most instructions first, as long as what the pixel
-// stage still reads fits the limits.  Nothing is packed.  An expression of uniforms alone stays where it is.
+// Interpolation keeps affine functions: f(lerp(a, b)) = lerp(f(a), f(b)).  So with the program's
+// consent (`per_vertex`), the largest subexpressions of the pixel stage that are affine in
+// interpolants (sums, differences, negation, products and quotients with a value that is the same
+// for the whole draw, swizzles, compositions) become interpolants of their own, computed from the
+// vertex stage's outputs; those that save most instructions first, as long as what the pixel stage
+// still reads fits the limits.  Nothing is packed.  An expression of uniforms alone stays where it
+// is.
 //
-// Not bit-exact: the vertices' values are rounded, then interpolated.  Returns one sentence for each value that moved;
-// does nothing without consent.
-std::vector<std::string> hoist_to_vertex(ir::Program& program, const InterpolantLimits& limits = {});
+// Not bit-exact: the vertices' values are rounded, then interpolated.  Returns one sentence for
+// each value that moved, or why nothing could; does nothing without consent.
+std::vector<std::string> hoist_to_vertex(ir::Program& program,
+                                         const InterpolantLimits& limits = {});
 
 }  // namespace intaglio::passes

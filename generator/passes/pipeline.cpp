@@ -33,12 +33,15 @@ class Run {
         pass(module_);
         if (options_.after_each) options_.after_each(name, module_);
         if (nesting(module_.body) > max_nesting) {
-            error_ = input_error("nesting", fmt::format("'{}' nests branches deeper than {} when its loops with early "
-                                                        "exits are unrolled; keep the loops or flatten the branches",
-                                                        module_.name, max_nesting));
+            error_ = input_error(
+                "nesting",
+                fmt::format("'{}' nests branches deeper than {} when its loops with early "
+                            "exits are unrolled; keep the loops or flatten the branches",
+                            module_.name, max_nesting));
         } else if (options_.verify_each) {
             if (const Status status = verify(module_); !status)
-                error_ = internal_error("pass-broke-module", fmt::format("{}: {}", name, status.error().message));
+                error_ = internal_error("pass-broke-module",
+                                        fmt::format("{}: {}", name, status.error().message));
         }
     }
 
@@ -48,7 +51,8 @@ class Run {
     static int nesting(const Region& region) {
         int deepest = 0;
         for (const Instruction& instruction : region.body)
-            for (const Region& inner : instruction.regions) deepest = std::max(deepest, 1 + nesting(inner));
+            for (const Region& inner : instruction.regions)
+                deepest = std::max(deepest, 1 + nesting(inner));
         return deepest;
     }
 
@@ -68,7 +72,8 @@ void run_once(Run& run, const PipelineOptions& options, std::vector<std::string>
     });
     run("unroll_loops", [&](Module& module) { unroll_loops(module, loops, early_exit); });
     run("fold_constants", fold_constants);
-    if (options.flatten_all) run("flatten_branches", [](Module& module) { flatten_branches(module); });
+    if (options.flatten_all)
+        run("flatten_branches", [](Module& module) { flatten_branches(module); });
     run("fold_constants", fold_constants);
     run("eliminate_common_subexpressions", eliminate_common_subexpressions);
     run("remove_dead_code", remove_dead_code);
@@ -79,7 +84,8 @@ void run_once(Run& run, const PipelineOptions& options, std::vector<std::string>
 Result<std::vector<std::string>> optimize(ir::Module& module, const PipelineOptions& options) {
     std::vector<std::string> notes;
     Run run(module, options);
-    // Each round needs the one before it to have found something; real modules settle in two or three.
+    // Each round needs the one before it to have found something; real modules settle in two or
+    // three.
     for (int round = 0; round < 16; ++round) {
         const Module before = module;
         run_once(run, options, notes);
@@ -89,7 +95,8 @@ Result<std::vector<std::string>> optimize(ir::Module& module, const PipelineOpti
     return notes;
 }
 
-Result<std::vector<std::string>> optimize_program(ir::Program& program, const PipelineOptions& options) {
+Result<std::vector<std::string>> optimize_program(ir::Program& program,
+                                                  const PipelineOptions& options) {
     auto notes = optimize(program.pixel, options);
     if (!notes) return notes;
     const auto append = [&](const std::vector<std::string>& more) {

@@ -15,17 +15,20 @@ namespace intaglio::passes {
 struct PipelineOptions {
     bool unroll_all = false;   // every loop, not only those scheduled so: the target has no loops
     bool flatten_all = false;  // every if: the target has no branches
-    bool verify_each = false;  // after every pass; a broken module is an internal error that names the pass
+    // After every pass; a broken module is an internal error that names the pass.
+    bool verify_each = false;
     InterpolantLimits interpolants = {};
     std::function<void(std::string_view pass, const ir::Module&)> after_each = {};  // may be empty
 };
 
-// Makes the module small and quick, and obeys its schedule.  The same module always gives the same result, and
-// optimizing that again changes nothing.  Returns what a person should know: one sentence for each rewrite that needed
-// consent.  Refuses to unroll a loop with an early exit into branches that nest deeper than ir::max_nesting [nesting].
+// Makes the module small and quick, and obeys its schedule.  The same module always gives the same
+// result, and optimizing that again changes nothing.  Returns what a person should know: one
+// sentence for each rewrite that needed consent.  Refuses to unroll a loop with an early exit into
+// branches that nest deeper than ir::max_nesting [nesting].
 Result<std::vector<std::string>> optimize(ir::Module& module, const PipelineOptions& options);
 
 // Both stages, and what moves between them.
-Result<std::vector<std::string>> optimize_program(ir::Program& program, const PipelineOptions& options);
+Result<std::vector<std::string>> optimize_program(ir::Program& program,
+                                                  const PipelineOptions& options);
 
 }  // namespace intaglio::passes

@@ -1,6 +1,7 @@
-// Liveness from the outputs backwards.  A value keeps its operands alive; the k-th result of an if keeps the k-th
-// yields and the condition alive; the k-th result of a loop keeps the k-th carried value, and every condition on which
-// the loop is left.  Cycles through a loop's parameters stay dead unless something else needs them.
+// Liveness from the outputs backwards.  A value keeps its operands alive; the k-th result of an if
+// keeps the k-th yields and the condition alive; the k-th result of a loop keeps the k-th carried
+// value, and every condition on which the loop is left.  Cycles through a loop's parameters stay
+// dead unless something else needs them.
 #include "generator/passes/remove_dead_code.h"
 
 #include <algorithm>
@@ -46,7 +47,8 @@ class Invariants {
             for (Region& inner : instruction.regions) visit(inner);
             if (instruction.op != Op::Loop) continue;
             for (std::size_t k = 0; k < instruction.operands.size();)
-                k = replace_if_invariant(instruction, k) ? 0 : k + 1;  // one may make another invariant
+                k = replace_if_invariant(instruction, k) ? 0
+                                                         : k + 1;  // one may make another invariant
         }
     }
 
@@ -61,7 +63,8 @@ class Invariants {
             if (instruction.op == Op::BreakIf && !keeps(instruction.operands[k + 1])) return false;
             if (instruction.op == Op::Yield && !keeps(instruction.operands[k])) return false;
         }
-        const auto name = is_leaf(definitions_[initial].op) ? Substitution::Name::Leave : Substitution::Name::TakeOver;
+        const auto name = is_leaf(definitions_[initial].op) ? Substitution::Name::Leave
+                                                            : Substitution::Name::TakeOver;
         substitution_.replace(parameter, initial, name);
         substitution_.replace(loop.results[k], initial, name);
         erase_carried(loop, k);
@@ -91,7 +94,8 @@ class Liveness {
     }
 
   private:
-    // Where a value comes from: a result of an instruction or a carried value of a loop, and which one.
+    // Where a value comes from: a result of an instruction or a carried value of a loop, and which
+    // one.
     struct Owner {
         const Instruction* instruction = nullptr;  // null: the index of a loop
         std::size_t index = 0;

@@ -30,7 +30,8 @@ void Substitution::apply(std::vector<ValueId>& operands) const {
 }
 
 void Cloner::bind(ValueId from, ValueId to) {
-    if (map_.size() <= index_of(from)) map_.resize(std::max<std::size_t>(source_.values.size(), index_of(from) + 1));
+    if (map_.size() <= index_of(from))
+        map_.resize(std::max<std::size_t>(source_.values.size(), index_of(from) + 1));
     map_[index_of(from)] = index_of(to) + 1;
 }
 
@@ -75,13 +76,17 @@ Instruction Cloner::clone(const Instruction& instruction) {
 }
 
 void Definitions::record(const Instruction& instruction) {
-    if (has_regions(instruction.op) || instruction.results.size() != 1 || instruction.operands.size() > 4) return;
+    if (has_regions(instruction.op) || instruction.results.size() != 1 ||
+        instruction.operands.size() > 4)
+        return;
     const std::size_t index = index_of(instruction.result());
-    if (definitions_.size() <= index) definitions_.resize(std::max(index + 1, definitions_.size() * 2));
+    if (definitions_.size() <= index)
+        definitions_.resize(std::max(index + 1, definitions_.size() * 2));
     Definition& definition = definitions_[index];
     definition.op = instruction.op;
     definition.operand_count = static_cast<std::uint8_t>(instruction.operands.size());
-    std::copy(instruction.operands.begin(), instruction.operands.end(), definition.operands.begin());
+    std::copy(instruction.operands.begin(), instruction.operands.end(),
+              definition.operands.begin());
     definition.bits = instruction.bits;
     definition.lanes = instruction.lanes;
     definition.slot = instruction.slot;
@@ -100,13 +105,15 @@ bool is_arithmetic(Op op) {
 
 bool reads_textures(const Region& region) {
     bool found = false;
-    for_each_instruction(region, [&](const Instruction& instruction) { found |= is_sample(instruction.op); });
+    for_each_instruction(
+        region, [&](const Instruction& instruction) { found |= is_sample(instruction.op); });
     return found;
 }
 
 bool contains_break(const Region& region) {
-    return std::any_of(region.body.begin(), region.body.end(),
-                       [](const Instruction& instruction) { return instruction.op == Op::BreakIf; });
+    return std::any_of(region.body.begin(), region.body.end(), [](const Instruction& instruction) {
+        return instruction.op == Op::BreakIf;
+    });
 }
 
 Instruction make_instruction(Module& module, Op op, Type type, std::span<const ValueId> operands,
@@ -119,7 +126,8 @@ Instruction make_instruction(Module& module, Op op, Type type, std::span<const V
     return instruction;
 }
 
-Instruction make_constant(Module& module, Type type, std::array<std::uint32_t, 4> bits, const Origin& origin) {
+Instruction make_constant(Module& module, Type type, std::array<std::uint32_t, 4> bits,
+                          const Origin& origin) {
     Instruction instruction = make_instruction(module, Op::Constant, type, {}, origin);
     instruction.bits = bits;
     return instruction;
@@ -131,7 +139,8 @@ Instruction make_int_constant(Module& module, int value, const Origin& origin) {
 
 void substitute(Region& region, const Substitution& substitution) {
     if (substitution.empty()) return;
-    for_each_instruction(region, [&](Instruction& instruction) { substitution.apply(instruction.operands); });
+    for_each_instruction(
+        region, [&](Instruction& instruction) { substitution.apply(instruction.operands); });
 }
 
 std::vector<int> count_uses(const Module& module) {
@@ -206,7 +215,8 @@ void compact_values(Module& module) { Numbering(module).run(); }
 
 void remove_unused_declarations(Module& module) {
     std::vector<bool> inputs(module.inputs.size()), uniforms(module.uniforms.size());
-    std::vector<bool> samplers(module.samplers.size()), files(module.files.size()), steps(module.steps.size());
+    std::vector<bool> samplers(module.samplers.size()), files(module.files.size()),
+        steps(module.steps.size());
     for (std::size_t i = 0; i < inputs.size(); ++i)
         inputs[i] = module.inputs[i].semantic == Semantic::Parameter;
     for_each_instruction(module.body, [&](const Instruction& instruction) {

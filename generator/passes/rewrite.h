@@ -1,5 +1,6 @@
-// What every pass is made of: walking and rebuilding regions, replacing values, copying instructions, and numbering
-// values anew.  A pass rewrites in execution order, so that an operand's definition is always seen before its uses.
+// What every pass is made of: walking and rebuilding regions, replacing values, copying
+// instructions, and numbering values anew.  A pass rewrites in execution order, so that an
+// operand's definition is always seen before its uses.
 #pragma once
 
 #include <array>
@@ -17,8 +18,8 @@ class Substitution {
   public:
     explicit Substitution(ir::Module& module) : module_(module) {}
 
-    // From now on `from` means `to`.  To keep the DSL's name, an unnamed `to` takes over the name of `from`; a constant
-    // or uniform must not, since it may stand for other quantities as well.
+    // From now on `from` means `to`.  To keep the DSL's name, an unnamed `to` takes over the name
+    // of `from`; a constant or uniform must not, since it may stand for other quantities as well.
     enum class Name { TakeOver, Leave };
     void replace(ir::ValueId from, ir::ValueId to, Name name = Name::TakeOver);
     // What the value is now; itself if nothing replaced it.
@@ -31,8 +32,9 @@ class Substitution {
     std::vector<ir::ValueId> replacements_;  // by value; beyond the end: itself
 };
 
-// Copies instructions with fresh values.  Values that were not bound and not copied stand for themselves, so source
-// and target may be one module; between two modules every operand must be bound first.
+// Copies instructions with fresh values.  Values that were not bound and not copied stand for
+// themselves, so source and target may be one module; between two modules every operand must be
+// bound first.
 class Cloner {
   public:
     Cloner(const ir::Module& source, ir::Module& target) : source_(source), target_(target) {}
@@ -50,8 +52,8 @@ class Cloner {
     std::vector<std::uint32_t> map_;  // new index + 1 by old index; 0: itself
 };
 
-// A value's defining instruction as far as rewriting looks at it.  `op` is Return, which defines nothing, for region
-// parameters and for results of loops and ifs.
+// A value's defining instruction as far as rewriting looks at it.  `op` is Return, which defines
+// nothing, for region parameters and for results of loops and ifs.
 struct Definition {
     ir::Op op = ir::Op::Return;
     std::uint8_t operand_count = 0;
@@ -74,9 +76,11 @@ class Definitions {
     std::vector<Definition> definitions_;
 };
 
-// Neither reads a texture, nor looks at neighbouring pixels, nor controls flow: it may run anywhere, any number of times.
+// Neither reads a texture, nor looks at neighbouring pixels, nor controls flow: it may run
+// anywhere, any number of times.
 bool is_arithmetic(ir::Op op);
-// A constant, uniform or input: its value may stand for several quantities, so it takes over no name.
+// A constant, uniform or input: its value may stand for several quantities, so it takes over no
+// name.
 inline bool is_leaf(ir::Op op) { return ir::info(op).type_rule == ir::TypeRule::Leaf; }
 // True if the region or one inside it reads a texture.
 bool reads_textures(const ir::Region& region);
@@ -89,7 +93,8 @@ ir::Instruction make_constant(ir::Module& module, ir::Type type, std::array<std:
                               const ir::Origin& origin);
 ir::Instruction make_int_constant(ir::Module& module, int value, const ir::Origin& origin);
 
-// Visits each instruction of the region and of those inside it, in execution order, an outer one before its inner ones.
+// Visits each instruction of the region and of those inside it, in execution order, an outer one
+// before its inner ones.
 template <typename Visit>
 void for_each_instruction(const ir::Region& region, Visit&& visit) {
     for (const ir::Instruction& instruction : region.body) {
@@ -105,8 +110,8 @@ void for_each_instruction(ir::Region& region, Visit&& visit) {
     }
 }
 
-// Rebuilds a body: visit(instruction, body) appends to the new body what the instruction becomes.  Inner regions are
-// the visitor's to rebuild.
+// Rebuilds a body: visit(instruction, body) appends to the new body what the instruction becomes.
+// Inner regions are the visitor's to rebuild.
 template <typename Visit>
 void rebuild(ir::Region& region, Visit&& visit) {
     std::vector<ir::Instruction> old = std::move(region.body);
@@ -122,12 +127,13 @@ void substitute(ir::Region& region, const Substitution& substitution);
 // How often each value is an operand.
 std::vector<int> count_uses(const ir::Module& module);
 
-// Drops values that nothing defines any more and numbers the others in the order in which a builder defines them: a
-// region's parameters, its body, then the results of its instruction.
+// Drops values that nothing defines any more and numbers the others in the order in which a builder
+// defines them: a region's parameters, its body, then the results of its instruction.
 void compact_values(ir::Module& module);
 
-// Drops inputs, uniforms and samplers that no instruction reads, and files and steps that no instruction comes from;
-// the others keep their order and are numbered anew.  Parameters of a function stay: they are its signature.
+// Drops inputs, uniforms and samplers that no instruction reads, and files and steps that no
+// instruction comes from; the others keep their order and are numbered anew.  Parameters of a
+// function stay: they are its signature.
 void remove_unused_declarations(ir::Module& module);
 
 // "templates/search/steep_parallax.cpp:25", or empty where the origin is unknown.

@@ -9,8 +9,8 @@ namespace {
 
 using enum Domain;
 
-// Not here, because they are wrong: a + 0 (a = -0), a - a (inf, NaN), a * 0 (inf, NaN, -1), -(a - b) = b - a (a = b),
-// not (a < b) = a >= b (NaN), min and max in another order (signs of zeros).
+// Not here, because they are wrong: a + 0 (a = -0), a - a (inf, NaN), a * 0 (inf, NaN, -1), -(a -
+// b) = b - a (a = b), not (a < b) = a >= b (NaN), min and max in another order (signs of zeros).
 constexpr RewriteRule rules[] = {
     {"add(a, -0)", "a", Float},
     {"add(-0, a)", "a", Float},
@@ -82,7 +82,8 @@ class PatternReader {
 
     Pattern read() {
         const std::size_t start = position_;
-        while (position_ < text_.size() && text_[position_] != '(' && text_[position_] != ',' && text_[position_] != ')')
+        while (position_ < text_.size() && text_[position_] != '(' && text_[position_] != ',' &&
+               text_[position_] != ')')
             ++position_;
         const std::string_view word = text_.substr(start, position_ - start);
         if (position_ < text_.size() && text_[position_] == '(') return operation(word);
@@ -116,7 +117,8 @@ class PatternReader {
             pattern.constant = word == "true" ? 1.0f : 0.0f;
             return pattern;
         }
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), pattern.constant);
+        const auto [end, error] =
+            std::from_chars(word.data(), word.data() + word.size(), pattern.constant);
         assert(error == std::errc{} && end == word.data() + word.size());
         (void)end, (void)error;
         return pattern;
@@ -133,8 +135,9 @@ std::span<const RewriteRule> rewrite_rules() { return rules; }
 Pattern parse_pattern(std::string_view text) { return PatternReader(text).read(); }
 
 std::uint32_t constant_bits(float constant, ir::Scalar scalar) {
-    return scalar == ir::Scalar::Float ? ir::float_bits(constant)
-                                       : static_cast<std::uint32_t>(static_cast<std::int32_t>(constant));
+    return scalar == ir::Scalar::Float
+               ? ir::float_bits(constant)
+               : static_cast<std::uint32_t>(static_cast<std::int32_t>(constant));
 }
 
 }  // namespace intaglio::passes

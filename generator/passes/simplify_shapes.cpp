@@ -1,4 +1,5 @@
-// A shape instruction is a list of lanes (which component of which value); rewriting looks one definition through.
+// A shape instruction is a list of lanes (which component of which value); rewriting looks one
+// definition through.
 #include "generator/passes/simplify_shapes.h"
 
 #include <optional>
@@ -36,7 +37,8 @@ bool swizzle_of_compose(const Module& module, const Definition& compose, Instruc
     std::vector<Lane> lanes;
     bool one_value = true, scalars = true;
     for (int i = 0; i < width; ++i) {
-        lanes.push_back(component_of(module, compose.operand_span(), swizzle.lanes[static_cast<std::size_t>(i)]));
+        lanes.push_back(component_of(module, compose.operand_span(),
+                                     swizzle.lanes[static_cast<std::size_t>(i)]));
         one_value = one_value && lanes.back().value == lanes.front().value;
         scalars = scalars && module.type(lanes.back().value).width == 1;
     }
@@ -115,7 +117,8 @@ void become_operand(Instruction& instruction, ValueId operand) {
     instruction.lanes = {};
 }
 
-bool simplify_shape(const Module& module, const Definitions& definitions, Instruction& instruction) {
+bool simplify_shape(const Module& module, const Definitions& definitions,
+                    Instruction& instruction) {
     if (instruction.op == Op::Swizzle) return simplify_swizzle(module, definitions, instruction);
     if (instruction.op == Op::Compose) return simplify_compose(module, definitions, instruction);
     return false;

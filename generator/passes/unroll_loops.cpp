@@ -1,5 +1,6 @@
-// Inner loops first, so that each body is copied in its final form.  Early exits are kept on a list while copying and
-// closed from the last to the first: no recursion, and no copy of what an exit guards.
+// Inner loops first, so that each body is copied in its final form.  Early exits are kept on a list
+// while copying and closed from the last to the first: no recursion, and no copy of what an exit
+// guards.
 #include "generator/passes/unroll_loops.h"
 
 #include "generator/passes/rewrite.h"
@@ -9,7 +10,8 @@ namespace {
 
 using namespace ir;
 
-// A break_if of one iteration: what it tests, what it leaves the loop with, and what runs if it does not.
+// A break_if of one iteration: what it tests, what it leaves the loop with, and what runs if it
+// does not.
 struct Exit {
     ValueId condition;
     std::vector<ValueId> values;
@@ -26,7 +28,8 @@ class Unroller {
         rebuild(region, [&](Instruction instruction, std::vector<Instruction>& body) {
             substitution_.apply(instruction.operands);
             for (Region& inner : instruction.regions) visit(inner);
-            if (instruction.op == Op::Loop && (which_ == Loops::All || instruction.loop.form == LoopForm::Unrolled))
+            if (instruction.op == Op::Loop &&
+                (which_ == Loops::All || instruction.loop.form == LoopForm::Unrolled))
                 expand(instruction, body);
             else
                 body.push_back(std::move(instruction));
@@ -47,7 +50,8 @@ class Unroller {
             Instruction index = make_int_constant(module_, i, loop.origin);
             copy.bind(region.parameters[0], index.result());
             append(std::move(index));
-            for (std::size_t k = 0; k < carried.size(); ++k) copy.bind(region.parameters[k + 1], carried[k]);
+            for (std::size_t k = 0; k < carried.size(); ++k)
+                copy.bind(region.parameters[k + 1], carried[k]);
             for (const Instruction& instruction : region.body) {
                 if (instruction.op == Op::Yield) {
                     carried = copy(instruction.operands);
@@ -64,16 +68,19 @@ class Unroller {
         close(loop, exits, std::move(carried), body);
     }
 
-    // From the last exit to the first: the values after the loop are the exit's if it is taken, else those so far.
+    // From the last exit to the first: the values after the loop are the exit's if it is taken,
+    // else those so far.
     void close(const Instruction& loop, std::vector<Exit>& exits, std::vector<ValueId> values,
                std::vector<Instruction>& body) {
         for (std::size_t i = exits.size(); i-- > 0;) {
             const bool nested = early_exit_ == EarlyExit::Branch && i > 0;
             std::vector<Instruction>& around = nested ? exits[i - 1].rest : body;
-            values = early_exit_ == EarlyExit::Branch ? close_with_branch(exits[i], values, around)
-                                                      : close_with_selects(exits[i], values, around);
+            values = early_exit_ == EarlyExit::Branch
+                         ? close_with_branch(exits[i], values, around)
+                         : close_with_selects(exits[i], values, around);
         }
-        for (std::size_t k = 0; k < values.size(); ++k) substitution_.replace(loop.results[k], values[k]);
+        for (std::size_t k = 0; k < values.size(); ++k)
+            substitution_.replace(loop.results[k], values[k]);
     }
 
     std::vector<ValueId> close_with_branch(Exit& exit, const std::vector<ValueId>& values,
@@ -86,7 +93,8 @@ class Unroller {
         branch.regions[0].body.push_back(yield(exit.values, exit.origin));
         branch.regions[1].body = std::move(exit.rest);
         branch.regions[1].body.push_back(yield(values, exit.origin));
-        for (ValueId value : values) branch.results.push_back(module_.add_value(module_.type(value)));
+        for (ValueId value : values)
+            branch.results.push_back(module_.add_value(module_.type(value)));
         std::vector<ValueId> results = branch.results;
         around.push_back(std::move(branch));
         return results;
@@ -97,8 +105,8 @@ class Unroller {
         for (std::size_t k = 0; k < values.size(); ++k) {
             if (values[k] == exit.values[k]) continue;
             const std::array operands = {exit.condition, exit.values[k], values[k]};
-            around.push_back(
-                make_instruction(module_, Op::Select, module_.type(values[k]), operands, exit.origin));
+            around.push_back(make_instruction(module_, Op::Select, module_.type(values[k]),
+                                              operands, exit.origin));
             values[k] = around.back().result();
         }
         return values;

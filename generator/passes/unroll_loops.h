@@ -13,11 +13,14 @@ enum class Loops {
 // What becomes of leaving a loop early.
 enum class EarlyExit {
     Branch,  // the rest of the iteration and all later ones go into the else region of an if
-    Select,  // everything runs, and selects pick the values: what flatten_branches makes of Branch, without the nesting
+    Select,  // everything runs, and selects pick the values: what flatten_branches makes of Branch,
+             // without the nesting
 };
 
-// Writes a loop's body out, once for each iteration, with the index as a constant.  The loop's name is gone with it.
-// Bit-exact; with EarlyExit::Select texture reads after an early exit run too.  Ends with values numbered anew.
-void unroll_loops(ir::Module& module, Loops which = Loops::AsScheduled, EarlyExit early_exit = EarlyExit::Branch);
+// Writes a loop's body out, once for each iteration, with the index as a constant.  The loop's name
+// is gone with it. Bit-exact; with EarlyExit::Select texture reads after an early exit run too.
+// Ends with values numbered anew.
+void unroll_loops(ir::Module& module, Loops which = Loops::AsScheduled,
+                  EarlyExit early_exit = EarlyExit::Branch);
 
 }  // namespace intaglio::passes

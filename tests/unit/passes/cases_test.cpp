@@ -1,8 +1,9 @@
 // The case files of tests/passes: each shows one idea of one pass as text before and after.
 //
-// "# ..." says what it shows; "pass: NAME OPTIONS..." what runs; then sections, each opened by "--- TITLE": `input`, or
-// `vertex` and `pixel` for a pass over both stages; then the same with ` output`; `notes` if the pass reports sentences.
-// INTAGLIO_UPDATE_GOLDENS=1 writes the outputs and notes anew.
+// "# ..." says what it shows; "pass: NAME OPTIONS..." what runs; then sections, each opened by "---
+// TITLE": `input`, or `vertex` and `pixel` for a pass over both stages; then the same with `
+// output`; `notes` if the pass reports sentences. INTAGLIO_UPDATE_GOLDENS=1 writes the outputs and
+// notes anew.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,8 +57,9 @@ const std::map<std::string, std::function<Notes(Program&)>>& known_passes() {
         {"hoist_loop_invariants", quiet(hoist_loop_invariants)},
         {"close_inductions", [](Program& program) { return close_inductions(program.pixel); }},
         {"unroll_loops", quiet([](Module& module) { unroll_loops(module); })},
-        {"unroll_loops select",
-         quiet([](Module& module) { unroll_loops(module, Loops::AsScheduled, EarlyExit::Select); })},
+        {"unroll_loops select", quiet([](Module& module) {
+             unroll_loops(module, Loops::AsScheduled, EarlyExit::Select);
+         })},
         {"flatten_branches", quiet([](Module& module) { flatten_branches(module); })},
         {"flatten_branches outside_loops",
          quiet([](Module& module) { flatten_branches(module, Branches::OutsideLoops); })},
@@ -69,7 +71,8 @@ const std::map<std::string, std::function<Notes(Program&)>>& known_passes() {
              return Notes{};
          }},
         {"optimize", optimized({.verify_each = true})},
-        {"optimize unrolled flat", optimized({.unroll_all = true, .flatten_all = true, .verify_each = true})},
+        {"optimize unrolled flat",
+         optimized({.unroll_all = true, .flatten_all = true, .verify_each = true})},
     };
     return passes;
 }
@@ -99,12 +102,15 @@ Case read_case(const std::filesystem::path& path) {
 void write_case(const std::filesystem::path& path, const Case& written) {
     std::ofstream file(path);
     file << written.comment << "pass: " << written.pass << "\n";
-    for (const char* title : {"input", "output", "vertex", "pixel", "vertex output", "pixel output", "notes"})
+    for (const char* title :
+         {"input", "output", "vertex", "pixel", "vertex output", "pixel output", "notes"})
         if (const auto section = written.sections.find(title); section != written.sections.end())
             file << "--- " << title << "\n" << section->second;
 }
 
-std::filesystem::path folder() { return std::filesystem::path(INTAGLIO_SOURCE_DIR) / "tests" / "passes"; }
+std::filesystem::path folder() {
+    return std::filesystem::path(INTAGLIO_SOURCE_DIR) / "tests" / "passes";
+}
 
 std::vector<std::string> case_files() {
     std::vector<std::string> files;
@@ -128,7 +134,8 @@ class Cases : public ::testing::TestWithParam<std::string> {
 
     void check(const std::string& title, const Module& module) {
         const Status status = ir::verify(module);
-        ASSERT_TRUE(status.ok()) << title << ": " << to_string(status.error()) << "\n" << ir::print(module);
+        ASSERT_TRUE(status.ok()) << title << ": " << to_string(status.error()) << "\n"
+                                 << ir::print(module);
     }
 
     Case case_;
@@ -153,7 +160,8 @@ TEST_P(Cases, BecomeTheirOutput) {
     if (both_stages) check("vertex after the pass", program.vertex);
 
     Case actual = case_;
-    for (const char* title : {"output", "vertex output", "pixel output", "notes"}) actual.sections.erase(title);
+    for (const char* title : {"output", "vertex output", "pixel output", "notes"})
+        actual.sections.erase(title);
     actual.sections[both_stages ? "pixel output" : "output"] = ir::print(program.pixel);
     if (both_stages) actual.sections["vertex output"] = ir::print(program.vertex);
     for (const std::string& note : notes) actual.sections["notes"] += note + "\n";
@@ -161,9 +169,11 @@ TEST_P(Cases, BecomeTheirOutput) {
 
     for (const auto& [title, text] : actual.sections)
         EXPECT_EQ(case_.sections[title], text)
-            << "section '" << title << "' of " << GetParam() << " (left: the file, right: the pass)\n"
+            << "section '" << title << "' of " << GetParam()
+            << " (left: the file, right: the pass)\n"
             << "accept: INTAGLIO_UPDATE_GOLDENS=1 ctest -R unit.passes";
-    EXPECT_EQ(case_.sections.size(), actual.sections.size()) << "a section that the pass does not produce";
+    EXPECT_EQ(case_.sections.size(), actual.sections.size())
+        << "a section that the pass does not produce";
 }
 
 std::string test_name(const ::testing::TestParamInfo<std::string>& test) {

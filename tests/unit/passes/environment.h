@@ -23,7 +23,9 @@ class Textures {
   public:
     explicit Textures(std::uint64_t seed) : flat_(make(seed, 1)), solid_(make(seed + 1, 4)) {}
 
-    const ir::Texture* of_dimension(int dimension) const { return dimension == 2 ? &flat_ : &solid_; }
+    const ir::Texture* of_dimension(int dimension) const {
+        return dimension == 2 ? &flat_ : &solid_;
+    }
 
   private:
     static ir::Texture make(std::uint64_t seed, int depth) {
@@ -54,7 +56,8 @@ inline ir::Environment::Vector random_vector(Random& random, ir::Type type) {
     return vector;
 }
 
-inline ir::Environment random_environment(Random& random, const ir::Module& module, const Textures& textures) {
+inline ir::Environment random_environment(Random& random, const ir::Module& module,
+                                          const Textures& textures) {
     ir::Environment environment;
     for (const ir::Declaration& input : module.inputs) {
         environment.inputs.push_back(random_vector(random, input.type));
@@ -63,14 +66,16 @@ inline ir::Environment random_environment(Random& random, const ir::Module& modu
     }
     for (const ir::Uniform& uniform : module.uniforms) {
         auto& elements = environment.uniforms.emplace_back();
-        for (int i = 0; i < uniform.count; ++i) elements.push_back(random_vector(random, uniform.type));
+        for (int i = 0; i < uniform.count; ++i)
+            elements.push_back(random_vector(random, uniform.type));
     }
     for (const ir::Sampler& sampler : module.samplers)
         environment.samplers.push_back(textures.of_dimension(sampler.dimension));
     return environment;
 }
 
-// Equal to the bit, but any NaN equals any NaN and in Single a denormal equals the zero of its sign (rewrite_rules.h).
+// Equal to the bit, but any NaN equals any NaN and in Single a denormal equals the zero of its sign
+// (rewrite_rules.h).
 inline bool same_number(double a, double b, ir::Precision precision) {
     if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b);
     const auto flush = [&](double x) {
@@ -81,18 +86,21 @@ inline bool same_number(double a, double b, ir::Precision precision) {
 }
 
 // Empty, or a sentence with the first component that differs.
-inline std::string difference(const ir::Evaluation& before, const ir::Evaluation& after, ir::Precision precision) {
+inline std::string difference(const ir::Evaluation& before, const ir::Evaluation& after,
+                              ir::Precision precision) {
     if (before.outputs.size() > after.outputs.size()) return "outputs are missing";
     for (std::size_t i = 0; i < before.outputs.size(); ++i)
         for (std::size_t k = 0; k < 4; ++k)
             if (!same_number(before.outputs[i][k], after.outputs[i][k], precision))
-                return fmt::format("output {} component {}: before {}, after {}", i, k, before.outputs[i][k],
-                                   after.outputs[i][k]);
+                return fmt::format("output {} component {}: before {}, after {}", i, k,
+                                   before.outputs[i][k], after.outputs[i][k]);
     return {};
 }
 
-// The module's declarations may be fewer after a pass: inputs, uniforms and samplers are matched by name.
-inline ir::Environment adapt(const ir::Environment& environment, const ir::Module& before, const ir::Module& after) {
+// The module's declarations may be fewer after a pass: inputs, uniforms and samplers are matched by
+// name.
+inline ir::Environment adapt(const ir::Environment& environment, const ir::Module& before,
+                             const ir::Module& after) {
     const auto slot = [](const auto& declarations, const std::string& name) {
         std::size_t i = 0;
         while (declarations[i].name != name) ++i;
@@ -105,7 +113,8 @@ inline ir::Environment adapt(const ir::Environment& environment, const ir::Modul
         adapted.right_inputs.push_back(environment.right_inputs[i]);
         adapted.lower_inputs.push_back(environment.lower_inputs[i]);
     }
-    // Without any neighbouring input the evaluator would take derivatives for 0, and inf - inf is not.
+    // Without any neighbouring input the evaluator would take derivatives for 0, and inf - inf is
+    // not.
     adapted.right_inputs.emplace_back();
     adapted.lower_inputs.emplace_back();
     for (const ir::Uniform& uniform : after.uniforms)
