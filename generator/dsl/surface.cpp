@@ -145,15 +145,15 @@ Result<ir::Program> record_function(const Surface& surface, FunctionPart part, c
         const float3 view = unit_input("view", "unit_view");
         const Relief relief = make_relief(surface);
         const Hit hit = surface.search->find(relief, Ray::through(relief, uv, view));
-        const float3 result(hit.uv, hit.height);
-        module.outputs = {{"hit", ir::float3, ir::Semantic::Result}};
+        const float3 result = let("result", float3(hit.uv, hit.height));
+        module.outputs = {{"result", ir::float3, ir::Semantic::Result}};
         if (Status status = recorder.finish({result.id()}); !status) return status.error();
     } else {
         const float1 height = input<1>("height");
         const float3 light = unit_input("light", "unit_light");
         const Relief relief = make_relief(surface);
-        const float1 result = surface.shadow->visibility(relief, {uv, height}, light);
-        module.outputs = {{"lit", ir::float1, ir::Semantic::Result}};
+        const float1 result = let("result", surface.shadow->visibility(relief, {uv, height}, light));
+        module.outputs = {{"result", ir::float1, ir::Semantic::Result}};
         if (Status status = recorder.finish({result.id()}); !status) return status.error();
     }
     return program;

@@ -160,7 +160,7 @@ const Attribute* find_attribute(std::string_view input) {
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (!name.empty() && name.back() == '0') name.pop_back();
     for (const Attribute& attribute : attributes) {
-        for (const std::string_view prefix : {"", "in_", "a_", "v_", "in", "a"}) {
+        for (const std::string_view prefix : {"", "in_", "a_", "v_", "vertex_", "in", "a"}) {
             if (name.size() == prefix.size() + attribute.name.size() &&
                 name.compare(0, prefix.size(), prefix) == 0 &&
                 name.compare(prefix.size(), attribute.name.size(), attribute.name) == 0) {
