@@ -335,7 +335,7 @@ class VariablePlanner {
             const Instruction* definition = plan_.uses_.definition(next);
             if (home.region != &body || !definition) continue;
             const bool computed = is_computed(definition) && (form(next) == Form::Inline || form(next) == Form::Local);
-            if (!computed && !owns_fresh_variable(*definition, next)) continue;
+            if (!computed && !owns_fresh_variable(*definition, next, planned.variables[k])) continue;
             early.push_back({k, next, home.index, false, form(next), variable(next)});
             rename(*definition, next, planned.variables[k]);
         }
@@ -350,10 +350,13 @@ class VariablePlanner {
         return early;
     }
 
-    // An if that declares a variable of its own for this result could store into the loop's.
-    bool owns_fresh_variable(const Instruction& definition, ValueId result) {
+    // An if that declares a variable of its own for this result could store into the loop's, unless another of its
+    // results took that over.
+    bool owns_fresh_variable(const Instruction& definition, ValueId result, int storage) {
         if (definition.op != Op::If) return false;
         const RegionPlan& planned = plan_.regions_[&definition];
+        if (std::find(planned.variables.begin(), planned.variables.end(), storage) != planned.variables.end())
+            return false;
         const auto j = std::find(definition.results.begin(), definition.results.end(), result);
         return planned.declared[static_cast<std::size_t>(j - definition.results.begin())];
     }

@@ -4,6 +4,7 @@
 
 #include "generator/target/glsl/dialect.h"
 #include "generator/target/limits.h"
+#include "generator/target/replace_scalar_dots.h"
 
 namespace intaglio {
 namespace {
@@ -114,7 +115,7 @@ Result<Artifact> print_function(const ir::Module& function, Binding binding) {
     return glsl::print_function(dialect, function, binding);
 }
 
-constexpr LegalizingPass legalizing[] = {check_limits_pass};
+constexpr LegalizingPass legalizing[] = {check_limits_pass, replace_scalar_dots_pass};
 
 }  // namespace
 
