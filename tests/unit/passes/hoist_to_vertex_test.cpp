@@ -50,7 +50,7 @@ Module random_pixel(Random& random) {
     constants.push_back(builder.emit(Op::Mul, {constants[0], constants[1]}));
     for (int i = random.between(2, 12); i > 0; --i) {
         const ValueId value = pick(values);
-        switch (random.below(7)) {
+        switch (random.below(8)) {
             case 0: values.push_back(builder.emit(Op::Add, {value, pick(values)})); break;
             case 1: values.push_back(builder.emit(Op::Sub, {pick(constants), value})); break;
             case 2: values.push_back(builder.emit(Op::Mul, {pick(constants), value})); break;
@@ -59,6 +59,14 @@ Module random_pixel(Random& random) {
             case 5:
                 values.push_back(builder.emit(Op::Lerp, {value, pick(values), pick(constants)}));
                 break;
+            case 7: {  // not affine, whatever it is applied to
+                constexpr Op ops[] = {Op::Max, Op::Min, Op::Mul, Op::Div, Op::Cross};
+                const ValueId constant = pick(constants);
+                const bool first = random.chance(50);
+                values.push_back(builder.emit(
+                    ops[random.below(5)], {first ? constant : value, first ? value : constant}));
+                break;
+            }
             case 6: {
                 const ValueId dot = builder.emit(Op::Dot, {value, pick(constants)});
                 values.push_back(builder.compose(std::array{dot, builder.swizzle(value, "yx")}));

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <ostream>
 
 #include "generator/ir/parse.h"
 #include "generator/ir/print.h"
@@ -35,6 +36,8 @@ struct Property {
     bool may_add_reads = false;  // both sides of a branch run
     bool idempotent = true;
 };
+
+void PrintTo(const Property& pass, std::ostream* out) { *out << pass.name; }
 
 void optimize_or_fail(Module& module, PipelineOptions options) {
     options.verify_each = true;
@@ -105,7 +108,7 @@ class EveryPass : public ::testing::TestWithParam<Property> {};
 TEST_P(EveryPass, KeepsWhatRandomModulesCompute) {
     const Property& pass = GetParam();
     const Textures textures(1);
-    // Other modules for each pass, 15 * 400 in all.
+    // Mostly other modules for each pass: the names differ in length.
     const std::uint64_t first = 1000 * static_cast<std::uint64_t>(pass.name.size());
     for (std::uint64_t seed = first; seed < first + 400; ++seed) {
         SCOPED_TRACE(fmt::format("seed {}", seed));
@@ -175,6 +178,96 @@ TEST(CountTextureReads, AgreesWithTheEvaluator) {
         }
     }
     EXPECT_GT(most, 5) << "the random modules hardly read textures";
+}
+
+// Every op with its operands in both orders: merging them must not change either.
+TEST(EliminateCommonSubexpressions, KnowsWhichOpsCommute) {
+    using namespace ir;
+    int merged = 0;
+    for (const OpInfo& row : all_ops()) {
+        if (row.operand_count != 2 || !is_arithmetic(row.op)) continue;
+        for (Scalar scalar : {Scalar::Float, Scalar::Int, Scalar::Bool}) {
+            const bool takes_float = row.type_rule != TypeRule::Logic;
+            const bool takes_int =
+                row.type_rule == TypeRule::SameNumeric || row.type_rule == TypeRule::Compare;
+            if (scalar == Scalar::Float ? !takes_float
+                : scalar == Scalar::Int ? !takes_int
+                                        : takes_float)
+                continue;
+            const Type type{scalar, row.type_rule == TypeRule::Cross ? 3 : 1};
+            Module before;
+            before.stage = Stage::Function;
+            for (const char* name : {"a", "b"})
+                before.inputs.push_back({name, type, Semantic::Parameter});
+            Builder builder(before);
+            const ValueId a = builder.input(0), b = builder.input(1);
+            const std::array results = {builder.emit(row.op, {a, b}), builder.emit(row.op, {b, a})};
+            builder.finish(results);
+            for (const char* name : {"ab", "ba"})
+                before.outputs.push_back({name, before.type(results[0]), Semantic::Result});
+            Module after = before;
+            eliminate_common_subexpressions(after);
+            if (after.values.size() < before.values.size()) ++merged;
+            Random random(5);
+            for (int i = 0; i < 500; ++i) {
+                const Environment environment = random_environment(random, before, Textures(1));
+                const Evaluation x = Evaluator(before).run(environment, Precision::Single);
+                const Evaluation y = Evaluator(after).run(environment, Precision::Single);
+                ASSERT_EQ(difference(x, y, Precision::Single), "") << row.name;
+            }
+        }
+    }
+    EXPECT_EQ(merged, 11) << "add, mul, equal and not_equal of floats and ints; dot; and, or";
+}
+
+// Loops whose carried ints grow by what stands outside, inside, or by themselves.
+TEST(CloseInductions, KeepsWhatIntLoopsCompute) {
+    using namespace ir;
+    std::size_t closed = 0;
+    for (std::uint64_t seed = 1; seed <= 500; ++seed) {
+        Random random(seed);
+        Module before;
+        before.stage = Stage::Function;
+        for (const char* name : {"a", "b", "c"}) {
+            before.inputs.push_back({name, int1, Semantic::Parameter});
+            before.outputs.push_back({name, int1, Semantic::Result});
+        }
+        Builder builder(before);
+        const std::array outside = {builder.input(0), builder.input(1), builder.input(2)};
+        const Builder::LoopScope loop = builder.begin_loop({"sum", random.between(1, 6)}, outside);
+        std::vector<ValueId> visible(outside.begin(), outside.end());
+        visible.insert(visible.end(), loop.carried.begin(), loop.carried.end());
+        visible.push_back(loop.index);
+        const auto pick = [&] {
+            return visible[static_cast<std::size_t>(
+                random.below(static_cast<int>(visible.size())))];
+        };
+        std::vector<ValueId> next;
+        for (ValueId carried : loop.carried) {
+            const Op op = random.chance(50) ? Op::Add : Op::Sub;
+            const ValueId step = random.chance(60) ? outside[0] : pick();
+            next.push_back(op == Op::Add && random.chance(50) ? builder.emit(op, {step, carried})
+                                                              : builder.emit(op, {carried, step}));
+            visible.push_back(next.back());
+            if (random.chance(30))
+                builder.break_if(builder.emit(Op::Greater, {next.back(), pick()}),
+                                 std::array{pick(), carried, next.back()});
+        }
+        if (random.chance(20)) std::swap(next[0], next[1]);  // then neither grows by itself
+        builder.finish(builder.end_loop(next));
+        Module after = before;
+        closed += close_inductions(after).size();
+        const Status status = verify(after);
+        ASSERT_TRUE(status.ok()) << "seed " << seed << ": " << to_string(status.error());
+        for (int i = 0; i < 10; ++i) {
+            const Environment environment = random_environment(random, before, Textures(1));
+            const Evaluation x = Evaluator(before).run(environment, Precision::Single);
+            const Evaluation y = Evaluator(after).run(environment, Precision::Single);
+            ASSERT_EQ(difference(x, y, Precision::Single), "") << "seed " << seed << "\n"
+                                                               << print(before) << print(after);
+        }
+    }
+    EXPECT_GT(closed, 500u) << "hardly any loop had an induction: the test shows little";
 }
 
 TEST(CompactValues, NumbersInBuilderOrder) {
