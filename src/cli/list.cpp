@@ -22,7 +22,8 @@ template <typename Kind>
 void describe_table(ordered_json& list, std::string_view part, const std::vector<dsl::Entry<Kind>>& table) {
     for (const dsl::Entry<Kind>& row : table) {
         ordered_json technique = {{"part", part}, {"name", row.name}, {"summary", row.summary}, {"source", row.source}, {"knobs", ordered_json::array()}};
-        for (const dsl::KnobBase* knob : row.make()->knobs()) technique["knobs"].push_back(describe(*knob));
+        const std::unique_ptr<Kind> made = row.make();
+        for (const dsl::KnobBase* knob : made->knobs()) technique["knobs"].push_back(describe(*knob));
         list.push_back(std::move(technique));
     }
 }

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -9,36 +10,71 @@
 #include "src/maps/bake.h"
 #include "src/maps/png.h"
 #include "src/measure/measure.h"
+#include "src/measure/shot.h"
+#include "src/report/command.h"
+#include "src/report/picture.h"
 #include "src/report/report.h"
 #include "src/scene/scene.h"
 
 namespace intaglio::cli {
 
-Status measure_scene(const dsl::Catalogue& catalogue, const MeasureOptions& options) {
-    Result<measure::Plan> plan = scene::read_scene(options.scene);
-    if (!plan) return plan.error();
-    if (!options.height.empty()) {
-        Result<measure::MapSet> set = measure::load_map_set({options.height, {}, {}}, plan->scale);
-        if (!set) return set.error();
-        plan->maps = {std::move(*set)};
-    }
-    if (!options.device.empty()) plan->device = options.device;
-    plan->validation = options.validation;
+namespace {
 
+// For each map one sheet: a line per variant with its picture and its error map, at the middle view of the plan.
+Status write_sheets(const dsl::Catalogue& catalogue, const measure::Plan& plan, const std::filesystem::path& folder) {
+    const Result<vulkan::Device> device = vulkan::Device::create({plan.device, plan.validation});
+    if (!device) return device.error();
+    const measure::Shot shot{plan.views[plan.views.size() / 2], plan.lights[plan.lights.size() / 2], plan.scale, plan.size, plan.size};
+    for (const measure::MapSet& set : plan.maps) {
+        const measure::Textures textures(set, plan.filtering);
+        std::vector<std::vector<report::Tile>> lines;
+        for (const VariantRequest& row : plan.rows) {
+            // Targets draw the same pixels; one line per surface and settings is enough.
+            if (row.target != plan.rows.front().target) continue;
+            const Result<vulkan::Picture> picture = measure::draw_shot(*device, catalogue, row, textures, shot);
+            if (!picture) return picture.error();
+            const Result<std::vector<measure::HitError>> errors = measure::shot_errors(*device, catalogue, row, set, textures, shot);
+            if (!errors) return errors.error();
+            const measure::HitStatistics hits = measure::summarize(*errors, shot.width);
+            lines.push_back({{report::to_image(*picture), fmt::format("{} {}", row.surface, report::settings_of(row))},
+                             {report::error_map(*errors, shot.width), fmt::format("p95 {:.2f} texels, missed {:.1f} %", hits.p95,
+                                                                                  100.0 * static_cast<double>(hits.missed) / static_cast<double>(hits.pixels))}});
+        }
+        const Result<maps::Image> sheet = report::contact_sheet(
+            lines, fmt::format("{}: eye at {:g} degrees, light at {:g}", set.name, shot.view.elevation, shot.light.elevation));
+        if (!sheet) return sheet.error();
+        if (Status status = maps::write_png(folder / (set.name + ".png"), *sheet); !status) return status;
+    }
+    return Done{};
+}
+
+}  // namespace
+
+Status measure_scene(const dsl::Catalogue& catalogue, const MeasureOptions& options) {
+    std::optional<measure::MapFiles> own_map;
+    if (!options.height.empty()) own_map = measure::MapFiles{options.height, {}, {}};
+    Result<scene::Scene> scene = scene::read_scene_with_sources(options.scene, own_map);
+    if (!scene) return scene.error();
+    measure::Plan& plan = scene->plan;
+    if (!options.device.empty()) plan.device = options.device;
+    plan.validation = options.validation;
+
+    const std::filesystem::path folder = options.output;
     std::error_code failure;
-    std::filesystem::create_directories(options.output, failure);
+    std::filesystem::create_directories(folder, failure);
     if (failure) return input_error("file-unwritable", fmt::format("cannot make this folder: {}", failure.message()), options.output);
     const bool terminal = isatty(STDERR_FILENO);
-    const Result<measure::Measurement> measurement = measure::measure(catalogue, *plan, [&](int done, int all) {
+    const Result<measure::Measurement> measurement = measure::measure(catalogue, plan, [&](int done, int all) {
         if (terminal) fmt::print(stderr, "\rmeasured {} of {} views{}", done, all, done == all ? "\n" : "");
     });
     if (!measurement) return measurement.error();
-    const std::filesystem::path folder = options.output;
-    for (const auto& [name, text] : {std::pair{"results.json", report::to_json(*plan, *measurement)},
-                                     std::pair{"results.csv", report::to_csv(*plan, *measurement)},
-                                     std::pair{"table.txt", report::table(*plan, *measurement)}})
+    const std::string table = report::table(plan, *measurement);
+    for (const auto& [name, text] : {std::pair{"results.json", report::to_json(plan, *measurement, scene->map_arguments)},
+                                     std::pair{"results.csv", report::to_csv(plan, *measurement, scene->map_arguments)},
+                                     std::pair{"table.txt", table}})
         if (Status status = write_product((folder / name).string(), text, false); !status) return status;
-    return write_product("-", report::table(*plan, *measurement), false);
+    if (Status status = write_sheets(catalogue, plan, folder); !status) return status;
+    return write_product("-", table, false);
 }
 
 Status bake_normal(const BakeOptions& options) {

@@ -6,8 +6,7 @@
 
 #include "src/cli/commands.h"
 #include "src/maps/png.h"
-#include "src/measure/hits.h"
-#include "src/measure/render.h"
+#include "src/measure/shot.h"
 #include "src/report/picture.h"
 
 namespace intaglio::cli {
@@ -69,36 +68,26 @@ Status check_validation(const vulkan::Device& device) {
     return internal_error("vulkan-validation", "the Vulkan validation layer complains: " + messages.front());
 }
 
-Result<vulkan::Picture> draw_map(const vulkan::Device& device, const check::Program& shaders, const measure::Textures& textures,
-                                 const RunOptions& options, Size size) {
-    Result<vulkan::Program> program = measure::prepare_quad(device, shaders, textures, options.map.scale, size.width, size.height);
-    if (!program) return program.error();
-    if (Status status = measure::aim(*program, {options.elevation, options.azimuth}, {options.light_elevation, options.light_azimuth}); !status)
-        return status.error();
-    Result<std::vector<vulkan::Picture>> pictures = program->draw();
-    if (!pictures) return pictures.error();
-    return std::move(pictures->front());
+measure::Shot shot_of(const RunOptions& options, Size size) {
+    return {{options.elevation, options.azimuth}, {options.light_elevation, options.light_azimuth}, options.map.scale, size.width, size.height};
 }
 
-// Draws the surface's displaced coordinates and writes how far they are from the exact ones.
-Status write_error_map(const dsl::Catalogue& catalogue, const vulkan::Device& device, VariantRequest request, const measure::MapSet& set,
-                       const measure::Textures& textures, const RunOptions& options, Size size) {
-    request.surface = dsl::with_part(request.surface, "output", "displaced");
-    const Result<Variant> variant = make_variant(catalogue, request);
-    if (!variant) return variant.error();
-    const Result<check::Program> shaders = link_variant(*variant);
-    if (!shaders) return shaders.error();
-    const Result<vulkan::Picture> displaced = draw_map(device, *shaders, textures, options, size);
-    if (!displaced) return displaced.error();
-    const measure::Direction view{options.elevation, options.azimuth}, light{options.light_elevation, options.light_azimuth};
-    const reference::HeightField field = set.height_field(reference::FilterWeights::Exact);
-    const float scale = static_cast<float>(options.map.scale);
-    const measure::ExactPicture exact = measure::trace_exact(field, view, light, scale, size.width, size.height);
-    const std::vector<measure::HitError> errors = measure::compare_hits(*displaced, exact, field, view, scale);
+Status write_error_map(const std::vector<measure::HitError>& errors, const std::string& path, Size size) {
     const measure::HitStatistics s = measure::summarize(errors, size.width);
     fmt::print(stderr, "hit error in texels: median {:.3g}, p95 {:.3g}, p99 {:.3g}, max {:.3g} at pixel ({}, {}); missed {} of {}; NaN {}\n",
                s.median, s.p95, s.p99, s.max, s.worst_x, s.worst_y, s.missed, s.pixels, s.invalid);
-    return maps::write_png(options.error_map, report::error_map(errors, size.width));
+    return maps::write_png(path, report::error_map(errors, size.width));
+}
+
+Result<vulkan::Picture> draw_mesh(const vulkan::Device& device, const check::Program& shaders, const measure::Textures& textures,
+                                  const RunOptions& options, Size size) {
+    const Result<measure::MeshView> view = mesh_view(options, size);
+    if (!view) return view.error();
+    Result<vulkan::Program> program = measure::prepare_mesh(device, shaders, textures, options.map.scale, size.width, size.height, *view);
+    if (!program) return program.error();
+    Result<std::vector<vulkan::Picture>> pictures = program->draw();
+    if (!pictures) return pictures.error();
+    return std::move(pictures->front());
 }
 
 }  // namespace
@@ -121,20 +110,16 @@ Status run(const dsl::Catalogue& catalogue, const RunOptions& options) {
     if (!device) return device.error();
 
     const measure::Textures textures(*set, *filtering);
-    Result<vulkan::Picture> picture = [&]() -> Result<vulkan::Picture> {
-        if (options.mesh == "map") return draw_map(*device, *shaders, textures, options, *size);
-        const Result<measure::MeshView> view = mesh_view(options, *size);
-        if (!view) return view.error();
-        Result<vulkan::Program> program =
-            measure::prepare_mesh(*device, *shaders, textures, options.map.scale, size->width, size->height, *view);
-        if (!program) return program.error();
-        Result<std::vector<vulkan::Picture>> pictures = program->draw();
-        if (!pictures) return pictures.error();
-        return std::move(pictures->front());
-    }();
+    const Result<vulkan::Picture> picture = options.mesh == "map"
+                                                ? measure::draw_shot(*device, catalogue, *request, textures, shot_of(options, *size))
+                                                : draw_mesh(*device, *shaders, textures, options, *size);
     if (!picture) return picture.error();
-    if (!options.error_map.empty())
-        if (Status status = write_error_map(catalogue, *device, *request, *set, textures, options, *size); !status) return status;
+    if (!options.error_map.empty()) {
+        const Result<std::vector<measure::HitError>> errors =
+            measure::shot_errors(*device, catalogue, *request, *set, textures, shot_of(options, *size));
+        if (!errors) return errors.error();
+        if (Status status = write_error_map(*errors, options.error_map, *size); !status) return status;
+    }
     if (Status status = check_validation(*device); !status) return status;
     return maps::write_png(options.output, report::to_image(*picture));
 }

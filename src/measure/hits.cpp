@@ -13,6 +13,14 @@ reference::Vec2 pixel_uv(int x, int y, int width, int height) {
     return {(x + 0.5) / width, (y + 0.5) / height};
 }
 
+// Where on the ray, 0 at the polygon and 1 at the deepest point, a reported coordinate lies; 0 where the ray does not move.
+double ray_parameter(reference::Vec2 uv, reference::Vec2 reported, reference::Vec3 view, double scale) {
+    const double reach_x = view.x / view.z * scale, reach_y = view.y / view.z * scale;
+    const double squared = reach_x * reach_x + reach_y * reach_y;
+    if (!(squared > 0)) return 0;
+    return ((uv.x - reported.x) * reach_x + (uv.y - reported.y) * reach_y) / squared;
+}
+
 // Runs `row(y)` for every row, spread over the machine's cores; rows write to places of their own.
 template <typename Row>
 void for_each_row(int height, const Row& row) {
@@ -70,9 +78,9 @@ std::vector<HitError> compare_hits(const vulkan::Picture& displaced, const Exact
             const double dv = (reported[1] - hit.uv.y) * field.height;
             error.texels = static_cast<float>(std::hypot(du, dv));
             error.height = static_cast<float>(std::abs(reported[2] - hit.height));
-            const double reported_t = 1.0 - reported[2];
-            error.missed = hit.found && reported_t > hit.t &&
-                           reference::leaves_relief(field, pixel_uv(x, y, exact.width, exact.height), v, scale, hit.t, reported_t);
+            const reference::Vec2 uv = pixel_uv(x, y, exact.width, exact.height);
+            const double reported_t = ray_parameter(uv, {reported[0], reported[1]}, v, scale);
+            error.missed = hit.found && reference::leaves_relief(field, uv, v, scale, hit.t, std::min(reported_t, 1.0));
             error.shadow_wrong = error.texels < 1 && (reported[3] >= 0.5f) != exact.lit[pixel];
         }
     });

@@ -24,8 +24,8 @@ reference::Vec3 exact_vector(const std::array<float, 3>& vector);
 
 // The lights and material of every draw.
 struct Look {
-    std::array<float, 3> ambient = {0.16f, 0.17f, 0.21f};
-    std::array<float, 3> light_colour = {1.0f, 0.96f, 0.88f};
+    std::array<float, 3> ambient = {0.25f, 0.27f, 0.33f};
+    std::array<float, 3> light_colour = {2.0f, 1.92f, 1.76f};
     float gloss = 0.25f;
 };
 

@@ -29,11 +29,13 @@ class SteepParallax : public Search {
         Step marching("march", "March the ray down until it is no longer above the relief.");
         var<float1> t{"t", 0.0f}, height{"height", relief.height_at_level(ray.uv, level)};
         for (int1 i : march) {
-            march.until(height >= 1 - t);
+            const float1 ray_height = let("ray_height", 1 - t);
+            march.until(height >= ray_height);
             t = min((i + 1) * step, 1.0f);
             height = relief.height_at_level(ray.at(t), level);
         }
-        return {let("displaced", ray.at(t)), 1 - t};
+        // The height is the relief's, not the ray's, which is up to a step below it: shadows start there.
+        return {let("displaced", ray.at(t)), height};
     }
 
     Status check() const override {

@@ -25,7 +25,8 @@ class March : public Shadow {
 
         var<float1> rise{"rise", start.value() * step}, height{"shadow_height", hit.height};
         for (int1 i : march) {
-            march.until(height >= hit.height + rise || hit.height + rise >= 1.0f);
+            const float1 ray_height = let("light_ray_height", hit.height + rise);
+            march.until(height >= ray_height || ray_height >= 1.0f);
             height = relief.height(hit.uv + reach * ((i + 1) * step));
             rise = ((i + 1) + start.value()) * step;
         }
