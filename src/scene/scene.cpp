@@ -221,9 +221,11 @@ std::vector<std::string> arguments_of(const measure::MapFiles& files) {
 
 std::vector<std::string> arguments_of(const MapEntry& entry) {
     if (entry.files) return arguments_of(*entry.files);
-    return {"--map",      entry.maker,
-            "--map-size", fmt::format("{}x{}", entry.width, entry.height),
-            "--seed",     fmt::format("{}", entry.seed)};
+    std::vector<std::string> arguments{"--maker", entry.maker, "--map-size",
+                                       fmt::format("{}x{}", entry.width, entry.height)};
+    if (entry.seed != 1)
+        arguments.insert(arguments.end(), {"--seed", fmt::format("{}", entry.seed)});
+    return arguments;
 }
 
 // An error of loading points at the scene: with its own place where it has none, else in a note.

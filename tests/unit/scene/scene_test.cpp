@@ -115,8 +115,8 @@ TEST(Scene, ProceduralMapsHaveTheirSizeSeedAndName) {
     EXPECT_EQ(scene->plan.maps[1].name, "other");
     EXPECT_EQ(scene->plan.maps[1].heights.height, 8);
     EXPECT_THAT(scene->map_arguments,
-                ElementsAre(ElementsAre("--map", "bricks", "--map-size", "32x16", "--seed", "7"),
-                            ElementsAre("--map", "bricks", "--map-size", "8x8", "--seed", "1")));
+                ElementsAre(ElementsAre("--maker", "bricks", "--map-size", "32x16", "--seed", "7"),
+                            ElementsAre("--maker", "bricks", "--map-size", "8x8")));
 }
 
 TEST(Scene, FilesAreFoundBesideTheScene) {

@@ -1,0 +1,131 @@
+// The JSON form.
+#include <nlohmann/json.hpp>
+
+#include "src/report/report.h"
+
+namespace intaglio::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using measure::CaseResult;
+using measure::Measurement;
+using measure::Plan;
+
+Json direction_of(measure::Direction direction) {
+    return {{"elevation", direction.elevation}, {"azimuth", direction.azimuth}};
+}
+
+Json plan_of(const Plan& plan) {
+    Json views = Json::array(), lights = Json::array();
+    for (measure::Direction view : plan.views) views.push_back(direction_of(view));
+    for (measure::Direction light : plan.lights) lights.push_back(direction_of(light));
+    return {{"scale", plan.scale},
+            {"size", plan.size},
+            {"rounds", plan.rounds},
+            {"filtering", plan.filtering == measure::Filtering::Float ? "float" : "native"},
+            {"device", plan.device},
+            {"views", views},
+            {"lights", lights}};
+}
+
+Json maps_of(const Plan& plan) {
+    Json maps = Json::array();
+    for (const measure::MapSet& map : plan.maps)
+        maps.push_back({{"name", map.name},
+                        {"width", map.heights.width},
+                        {"height", map.heights.height},
+                        {"bits", map.heights.bits}});
+    return maps;
+}
+
+Json row_of(const VariantRequest& request, const check::SpirvCost& cost,
+            const std::vector<std::string>& settings) {
+    Json knobs = Json::object(), loops = Json::object();
+    for (const auto& [knob, value] : request.knobs) knobs[knob] = value;
+    for (const auto& [loop, form] : request.loop_forms) loops[loop] = word_of(form);
+    return {{"surface", request.surface},
+            {"target", request.target},
+            {"knobs", knobs},
+            {"loops", loops},
+            {"per_vertex", request.per_vertex},
+            {"settings", settings},
+            {"spirv",
+             {{"alu", cost.alu},
+              {"texture", cost.texture},
+              {"branch", cost.branch},
+              {"memory", cost.memory},
+              {"total", cost.total},
+              {"shortest_path", cost.shortest_path},
+              {"longest_path", cost.longest_path}}}};
+}
+
+Json hits_of(const CaseResult& result, int size) {
+    const measure::HitStatistics& hits = result.hits;
+    Json json = {{"pixels", hits.pixels},
+                 {"missed", hits.missed},
+                 {"invalid", hits.invalid},
+                 {"shadow_wrong", hits.shadow_wrong}};
+    const bool known = hits.pixels > hits.invalid;
+    const auto put = [&](const char* name, double value) {
+        json[name] = known ? Json(value) : Json();
+    };
+    put("median", hits.median);
+    put("p95", hits.p95);
+    put("p99", hits.p99);
+    put("max", hits.max);
+    put("height_median", hits.height_median);
+    put("height_max", hits.height_max);
+    json["worst"] = known ? Json{{"x", hits.worst_x},
+                                 {"y", hits.worst_y},
+                                 {"u", (hits.worst_x + 0.5) / size},
+                                 {"v", (hits.worst_y + 0.5) / size}}
+                          : Json();
+    return json;
+}
+
+Json case_of(const Plan& plan, const CaseResult& result, const MapArguments& map_arguments) {
+    const bool timed = result.nanoseconds > 0;
+    const std::string command = run_command(plan, result, map_arguments);
+    return {{"map", plan.maps[static_cast<std::size_t>(result.map)].name},
+            {"view", direction_of(result.view)},
+            {"light", direction_of(result.light)},
+            {"row", result.row},
+            {"reads", {{"mean", result.reads_mean}, {"max", result.reads_max}}},
+            {"time",
+             {{"nanoseconds_per_pixel", timed ? Json(result.nanoseconds) : Json()},
+              {"ratio", timed ? Json(result.ratio) : Json()}}},
+            {"hits", hits_of(result, plan.size)},
+            {"invalid_colours", result.invalid_colours},
+            {"command", command.empty() ? Json() : Json(command)}};
+}
+
+}  // namespace
+
+std::string to_json(const Plan& plan, const Measurement& measurement,
+                    const MapArguments& map_arguments) {
+    Json rows = Json::array(), cases = Json::array();
+    for (std::size_t row = 0; row < plan.rows.size(); ++row)
+        rows.push_back(row_of(plan.rows[row], measurement.costs[row], measurement.settings[row]));
+    for (const CaseResult& result : measurement.cases)
+        cases.push_back(case_of(plan, result, map_arguments));
+    const Json json = {
+        {"schema", "intaglio.measurement"},
+        {"version", schema_version},
+        {"made_by",
+         {{"spirv", "instructions of the shaded pixel stage after spirv-opt"},
+          {"reads", "counted on the run: search and shadow, per pixel"},
+          {"time",
+           "median of interleaved rounds on the device; ratio to the first row of the same map, "
+           "view and light"},
+          {"hits",
+           "texels from the exact first hit, double precision reference; pixels without NaN"}}},
+        {"device", measurement.device},
+        {"plan", plan_of(plan)},
+        {"maps", maps_of(plan)},
+        {"rows", rows},
+        {"cases", cases}};
+    // File names need not be UTF-8; JSON must be.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace intaglio::report
