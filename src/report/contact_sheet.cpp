@@ -8,10 +8,10 @@ namespace intaglio::report {
 namespace {
 
 constexpr Rgb paper = {0.97f, 0.97f, 0.97f}, ink = {0.10f, 0.10f, 0.11f};
-constexpr int margin = 16;       // around the sheet and between tiles
-constexpr int caption_gap = 8;   // between a tile and its caption
-constexpr int least_side = 128;  // tiles below are enlarged
-constexpr int caption_scale = 2, title_scale = 3;
+constexpr int margin = 16;        // around the sheet and between tiles
+constexpr int caption_gap = 8;    // between a tile and its caption
+constexpr int least_side = 128;   // tiles below are enlarged
+constexpr int wide_column = 192;  // narrower columns have letters of half the size
 
 // RGB, enlarged by a whole factor.
 maps::Image prepared(const maps::Image& image) {
@@ -51,6 +51,7 @@ struct Layout {
     std::vector<long long> widths;   // of columns
     std::vector<long long> heights;  // of the tiles of each row
     std::vector<long long> lines;    // of the captions of each row
+    int scale = 1;                   // of captions, one more for the title
 };
 
 Layout lay_out(const std::vector<std::vector<Tile>>& rows) {
@@ -66,12 +67,14 @@ Layout lay_out(const std::vector<std::vector<Tile>>& rows) {
             layout.tiles.back().push_back(std::move(tile));
         }
     }
+    const auto narrowest = std::min_element(layout.widths.begin(), layout.widths.end());
+    layout.scale = *narrowest < wide_column ? 1 : 2;
     for (const std::vector<Tile>& row : rows) {
         layout.captions.emplace_back();
         layout.lines.push_back(0);
         for (std::size_t column = 0; column < row.size(); ++column) {
             const std::size_t most =
-                characters_in(static_cast<int>(layout.widths[column]), caption_scale);
+                characters_in(static_cast<int>(layout.widths[column]), layout.scale);
             layout.captions.back().push_back(row[column].caption.empty()
                                                  ? std::vector<std::string>{}
                                                  : wrapped(row[column].caption, most));
@@ -100,6 +103,7 @@ Result<maps::Image> contact_sheet(const std::vector<std::vector<Tile>>& rows,
                                   const std::string& title) {
     if (Status status = check_tiles(rows); !status) return status.error();
     const Layout layout = lay_out(rows);
+    const int title_scale = layout.scale + 1;
     long long width = margin;
     for (long long column : layout.widths) width += column + margin;
     const std::vector<std::string> title_lines =
@@ -113,7 +117,7 @@ Result<maps::Image> contact_sheet(const std::vector<std::vector<Tile>>& rows,
     const auto caption_height = [&](std::size_t row) {
         return layout.lines[row] == 0
                    ? 0
-                   : caption_gap + layout.lines[row] * line_advance * caption_scale;
+                   : caption_gap + layout.lines[row] * line_advance * layout.scale;
     };
     long long height = margin + title_height;
     for (std::size_t row = 0; row < rows.size(); ++row)
@@ -129,7 +133,7 @@ Result<maps::Image> contact_sheet(const std::vector<std::vector<Tile>>& rows,
         for (std::size_t column = 0; column < rows[row].size(); ++column) {
             paste(sheet, layout.tiles[row][column], x, y);
             draw_lines(sheet, x, y + static_cast<int>(layout.heights[row]) + caption_gap,
-                       layout.captions[row][column], caption_scale);
+                       layout.captions[row][column], layout.scale);
             x += static_cast<int>(layout.widths[column]) + margin;
         }
         y += static_cast<int>(layout.heights[row] + caption_height(row)) + margin;

@@ -147,11 +147,14 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t most) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         std::string_view line = text.substr(0, end);
         while (line.size() > most) {
-            std::size_t cut = line.rfind(' ', most);
-            const bool blank = cut != std::string_view::npos && cut > 0;
-            if (!blank) cut = most;
+            const std::size_t blank = line.rfind(' ', most);
+            const std::size_t mark = line.substr(0, most).find_last_of(",_=:/");
+            const bool at_blank = blank != std::string_view::npos && blank > 0;
+            const std::size_t cut = at_blank                         ? blank
+                                    : mark != std::string_view::npos ? mark + 1
+                                                                     : most;
             lines.emplace_back(line.substr(0, cut));
-            line.remove_prefix(cut + (blank ? 1 : 0));
+            line.remove_prefix(cut + (at_blank ? 1 : 0));
         }
         lines.emplace_back(line);
         if (end == text.size()) return lines;

@@ -21,8 +21,8 @@ int text_width(std::string_view text);
 // the image is cut.  A character that the font lacks is a full box.
 void draw_text(maps::Image& image, int x, int y, std::string_view text, Rgb colour, int scale);
 
-// Breaks at '\n', and at blanks so that no line has more than `most` characters; a word that is
-// longer is cut.
+// Breaks at '\n', and so that no line has more than `most` characters: at a blank where there is
+// one, else behind one of ",_=:/", else wherever the line is full.
 std::vector<std::string> wrapped(std::string_view text, std::size_t most);
 
 }  // namespace intaglio::report

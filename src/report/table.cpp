@@ -89,8 +89,8 @@ const VariantRequest& request_of(const Plan& plan, const CaseResult& result) {
 }
 
 std::vector<std::string> head() {
-    return {"#",      "technique", "knobs", "target", "alu/tex/all", "reads",   "time", "ns/px",
-            "median", "p95",       "p99",   "max",    "missed%",     "shadow%", "NaN"};
+    return {"#",      "technique", "knobs", "target", "alu/tex/all", "reads", "time", "ns/px",
+            "median", "p95",       "p99",   "max",    "miss%",       "shad%", "NaN"};
 }
 
 constexpr std::size_t technique_column = 1, knob_column = 2;
@@ -262,18 +262,18 @@ std::string legend(const Plan& plan, const Measurement& measurement) {
         "run\n";
     if (plan.rounds > 0)
         text += fmt::format(
-            "time, ns/px  {}: median of {} interleaved rounds; time is relative to row 1 of the "
-            "block.\n"
-            "             Compare within a block only\n",
-            measurement.device, plan.rounds);
+            "time, ns/px  median of {} interleaved rounds, time relative to row 1 of its block; "
+            "compare within a block only;\n"
+            "             on {}\n",
+            plan.rounds, measurement.device);
     else
         text += fmt::format("time, ns/px  not taken; drawn on {}\n", measurement.device);
     text += fmt::format(
         "median..max  distance in texels from the reported hit to the exact first hit (double "
         "precision reference),\n"
         "             over {} x {} pixels without NaN; relief scale {}, {} filtering\n"
-        "missed%      pixels whose ray had left the relief again before the reported hit\n"
-        "shadow%      pixels within a texel of the exact hit whose shadow is not the exact one, of "
+        "miss%        pixels whose ray had left the relief again before the reported hit\n"
+        "shad%        pixels within a texel of the exact hit whose shadow is not the exact one, of "
         "all pixels\n"
         "NaN          pixels with NaN or Inf in the hit / in the shaded colour\n",
         plan.size, plan.size, plan.scale,

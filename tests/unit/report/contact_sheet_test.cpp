@@ -61,11 +61,17 @@ TEST(ContactSheet, GrowsByTheLinesOfItsLongestCaption) {
     const Tile bare{plain(128, 128, 0.25f), ""}, one{plain(128, 128, 0.25f), "one"},
         three{plain(128, 128, 0.25f), "one\ntwo\nthree"};
     const int none = contact_sheet({{bare}})->height;
-    EXPECT_EQ(contact_sheet({{one}})->height, none + 8 + 20);
-    EXPECT_EQ(contact_sheet({{one, three}})->height, none + 8 + 3 * 20);
-    // 128 pixels hold ten letters of 12.
-    EXPECT_EQ(contact_sheet({{{plain(128, 128, 0.25f), "0123456789 123"}}})->height,
-              none + 8 + 2 * 20);
+    EXPECT_EQ(contact_sheet({{one}})->height, none + 8 + 10);
+    EXPECT_EQ(contact_sheet({{one, three}})->height, none + 8 + 3 * 10);
+    // 128 pixels hold 21 letters of 6; 192 hold 16 of 12.
+    EXPECT_EQ(contact_sheet({{{plain(128, 128, 0.25f), std::string(21, 'x')}}})->height,
+              none + 8 + 10);
+    EXPECT_EQ(contact_sheet({{{plain(128, 128, 0.25f), std::string(22, 'x')}}})->height,
+              none + 8 + 20);
+    EXPECT_EQ(contact_sheet({{{plain(192, 128, 0.25f), std::string(16, 'x')}}})->height,
+              none + 8 + 20);
+    EXPECT_EQ(contact_sheet({{{plain(192, 128, 0.25f), std::string(17, 'x')}}})->height,
+              none + 8 + 40);
 }
 
 TEST(ContactSheet, RefusesNothingAndTooMuch) {
@@ -105,6 +111,8 @@ TEST(Font, ScalesByWholeDots) {
 
 TEST(Font, WrapsAtBlanksAndCutsWhatHasNone) {
     EXPECT_THAT(wrapped("one two three", 7), ElementsAre("one two", "three"));
+    EXPECT_THAT(wrapped("parallax_occlusion taps=8", 12),
+                ElementsAre("parallax_", "occlusion", "taps=8"));
     EXPECT_THAT(wrapped("abcdefgh", 3), ElementsAre("abc", "def", "gh"));
     EXPECT_THAT(wrapped("a\n\nb", 3), ElementsAre("a", "", "b"));
     EXPECT_THAT(wrapped("", 3), ElementsAre(""));

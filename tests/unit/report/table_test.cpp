@@ -73,7 +73,7 @@ TEST(Table, ColumnsAreAligned) {
         EXPECT_LE(line.size(), table_width);
     }
     // Numbers end where their titles end.
-    for (const std::string title : {"reads", "ns/px", "p95", "shadow%", "NaN"}) {
+    for (const std::string title : {"reads", "ns/px", "p95", "shad%", "NaN"}) {
         const std::size_t end = lines[0].find(title) + title.size();
         for (const std::string& line : lines) {
             EXPECT_NE(line[end - 1], ' ') << title << ": " << line;
@@ -160,7 +160,8 @@ TEST(Table, TheLegendSaysWhoMadeTheNumbers) {
     const Sample made = sample();
     const std::string text = table(made.plan, made.measurement);
     EXPECT_THAT(text, HasSubstr("SPIRV-Tools"));
-    EXPECT_THAT(text, HasSubstr("llvmpipe, Mesa: median of 5 interleaved rounds"));
+    EXPECT_THAT(text, HasSubstr("median of 5 interleaved rounds"));
+    EXPECT_THAT(text, HasSubstr("on llvmpipe, Mesa"));
     EXPECT_THAT(text, HasSubstr("double precision reference"));
     for (const std::string& line : lines_of(text)) EXPECT_LE(line.size(), table_width) << line;
 }
