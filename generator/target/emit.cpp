@@ -29,24 +29,28 @@ Status legalize(ir::Module& module, const Target& target, const EmitOptions& opt
     for (const LegalizingPass& pass : target.legalize) {
         if (Status status = pass.run(module, target); !status) return status;
         if (options.after_each_pass)
-            options.after_each_pass(fmt::format("{}: {}", stage_word(module.stage), pass.name), module);
+            options.after_each_pass(fmt::format("{}: {}", stage_word(module.stage), pass.name),
+                                    module);
     }
     return Done{};
 }
 
 Diagnostic derived(const Target& target) {
-    return input_error("target-derived", fmt::format("{} is not printed but made from the text of {}", target.name,
-                                                     target.derived_from));
+    return input_error("target-derived",
+                       fmt::format("{} is not printed but made from the text of {}", target.name,
+                                   target.derived_from));
 }
 
 }  // namespace
 
-Result<Artifact> emit(const ir::Program& program, ir::Stage stage, const Target& target, const EmitOptions& options) {
+Result<Artifact> emit(const ir::Program& program, ir::Stage stage, const Target& target,
+                      const EmitOptions& options) {
     if (!target.derived_from.empty()) return derived(target);
     for (const ir::Module* module : {&program.vertex, &program.pixel})
         if (Status status = ir::verify(*module); !status) return status.error();
     ir::Program legal = program;
-    Result<std::vector<std::string>> notes = passes::optimize_program(legal, pipeline_options(target, options));
+    Result<std::vector<std::string>> notes =
+        passes::optimize_program(legal, pipeline_options(target, options));
     if (!notes) return notes.error();
     for (ir::Module* module : {&legal.vertex, &legal.pixel})
         if (Status status = legalize(*module, target, options); !status) return status.error();
@@ -58,12 +62,15 @@ Result<Artifact> emit(const ir::Program& program, ir::Stage stage, const Target&
 Result<Artifact> emit_function(const ir::Module& function, const Target& target, Binding binding,
                                const EmitOptions& options) {
     if (!target.capabilities.functions || !target.print_function)
-        return input_error("target-function", fmt::format("{} has no text to paste a function into", target.name));
+        return input_error("target-function",
+                           fmt::format("{} has no text to paste a function into", target.name));
     if (Status status = ir::verify(function); !status) return status.error();
     if (function.stage != ir::Stage::Function || function.outputs.size() != 1)
-        return input_error("target-function", fmt::format("{} is not a function with one result", function.name));
+        return input_error("target-function",
+                           fmt::format("{} is not a function with one result", function.name));
     ir::Module legal = function;
-    Result<std::vector<std::string>> notes = passes::optimize(legal, pipeline_options(target, options));
+    Result<std::vector<std::string>> notes =
+        passes::optimize(legal, pipeline_options(target, options));
     if (!notes) return notes.error();
     if (Status status = legalize(legal, target, options); !status) return status.error();
     Result<Artifact> artifact = target.print_function(legal, binding);

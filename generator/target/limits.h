@@ -5,7 +5,8 @@
 
 namespace intaglio {
 
-// Refuses a module that asks for more than the target's language can say, naming the limit and the line.
+// Refuses a module that asks for more than the target's language can say, naming the limit and the
+// line.
 Status check_limits(ir::Module& module, const Target& target);
 
 inline constexpr LegalizingPass check_limits_pass{"check_limits", check_limits};

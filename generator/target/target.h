@@ -1,6 +1,6 @@
-// What a back end is to the rest of the program: one row of a table, found by name.  A target is a table of spellings,
-// a list of legalising passes, and the two functions that print a module those passes have made legal.
-// A target never sees a technique or another target.
+// What a back end is to the rest of the program: one row of a table, found by name.  A target is a
+// table of spellings, a list of legalising passes, and the two functions that print a module those
+// passes have made legal. A target never sees a technique or another target.
 #pragma once
 
 #include <functional>
@@ -17,8 +17,8 @@ namespace intaglio {
 
 // Text ready to be written to a file, or to be given to a compiler.
 struct Artifact {
-    std::string text;                // ends in a line break
-    std::string entry;               // entry point, or the function's name
+    std::string text;   // ends in a line break
+    std::string entry;  // entry point, or the function's name
     ir::Stage stage = ir::Stage::Pixel;
     std::string extension;           // ".vert", ".frag", ".vert.hlsl", ...; with the dot
     std::vector<std::string> notes;  // what whoever uses the text must know, one sentence each
@@ -29,14 +29,15 @@ enum class Binding { Parameters, Globals };
 
 // What a target's language can say at all; the pages under docs/targets tell more.
 struct Capabilities {
-    bool loops = true;              // loops with an exit in the middle
-    bool branches = true;           // an if that skips work
-    bool derivatives = true;        // ddx, ddy and reads with an implicit level
+    bool loops = true;        // loops with an exit in the middle
+    bool branches = true;     // an if that skips work
+    bool derivatives = true;  // ddx, ddy and reads with an implicit level
     bool texture_gradients = true;
     bool volume_textures = true;
-    bool precise = false;           // a keyword forbids contraction and reassociation
-    bool functions = true;          // emit_function works
+    bool precise = false;   // a keyword forbids contraction and reassociation
+    bool functions = true;  // emit_function works
     int colour_targets = 8;
+    int loop_trips = 0;  // the most iterations of one loop; 0: any
     passes::InterpolantLimits interpolants = {};
 };
 
@@ -49,9 +50,11 @@ struct LegalizingPass {
 };
 
 struct Target {
-    std::string_view name;           // the folder of its page, its golden suffix and its name on the command line
-    std::string_view description;    // one line for `intaglio list targets`
-    std::string_view derived_from;   // src/check makes this artifact from that target's text; empty: we print it
+    std::string_view
+        name;  // the folder of its page, its golden suffix and its name on the command line
+    std::string_view description;  // one line for `intaglio list targets`
+    std::string_view
+        derived_from;  // src/check makes this artifact from that target's text; empty: we print it
     Capabilities capabilities;
     std::span<const LegalizingPass> legalize;
     Result<Artifact> (*print)(const ir::Program& program, ir::Stage stage) = nullptr;
@@ -64,18 +67,21 @@ std::span<const Target* const> all_targets();
 const Target* find_target(std::string_view name);
 
 struct EmitOptions {
-    // Called with "pixel: unroll_loops" and the module after each pass that ran, optimising and legalising alike.
+    // Called with "pixel: unroll_loops" and the module after each pass that ran, optimising and
+    // legalising alike.
     std::function<void(std::string_view stage_and_pass, const ir::Module& module)> after_each_pass;
 };
 
-// Runs the passes over both stages (some move work between them), legalises the wanted one and prints it.
-// Errors: "target-derived" (the artifact is made by src/check from another target's), whatever a pass refuses, and
-// "target-limit" with the line of the DSL that asked for too much.  stage: Vertex or Pixel.
+// Runs the passes over both stages (some move work between them), legalises the wanted one and
+// prints it. Errors: "target-derived" (the artifact is made by src/check from another target's),
+// whatever a pass refuses, and "target-limit" with the line of the DSL that asked for too much.
+// stage: Vertex or Pixel.
 Result<Artifact> emit(const ir::Program& program, ir::Stage stage, const Target& target,
                       const EmitOptions& options = {});
 
-// Prints a module of Stage::Function as one function to paste into a shader: its inputs are the parameters, its one
-// output the return value.  Errors as for emit, and "target-function" where the target has no text to paste.
+// Prints a module of Stage::Function as one function to paste into a shader: its inputs are the
+// parameters, its one output the return value.  Errors as for emit, and "target-function" where the
+// target has no text to paste.
 Result<Artifact> emit_function(const ir::Module& function, const Target& target, Binding binding,
                                const EmitOptions& options = {});
 

@@ -18,8 +18,9 @@ namespace {
 
 Binds tighter(Binds binds) { return static_cast<Binds>(static_cast<int>(binds) + 1); }
 
-// What an operand's place asks for.  Calls and constructors separate operands by commas; every binary operator is left
-// associative; a ternary's condition and middle would be hard to read unparenthesised.
+// What an operand's place asks for.  Calls and constructors separate operands by commas; every
+// binary operator is left associative; a ternary's condition and middle would be hard to read
+// unparenthesised.
 Binds required(const OpSpelling& row, int operand) {
     if (row.text.ends_with(")")) return Binds::Ternary;
     if (row.binds == Binds::Ternary) return operand == 2 ? Binds::Ternary : Binds::LogicalOr;
@@ -38,7 +39,11 @@ bool same_components(const Instruction& constant, int width) {
 
 Expressions::Expressions(const ir::Module& module, const Plan& plan, const Spelling& spelling,
                          const OuterNames& outer)
-    : module_(module), plan_(plan), spelling_(spelling), outer_(outer), locals_(module.values.size()),
+    : module_(module),
+      plan_(plan),
+      spelling_(spelling),
+      outer_(outer),
+      locals_(module.values.size()),
       variable_names_(plan.variables().size()) {}
 
 void Expressions::fail(const Instruction& instruction, std::string message) {
@@ -50,7 +55,9 @@ std::string Expressions::operand(ValueId value, Binds at_least) {
     return text.binds < at_least ? fmt::format("({})", text.text) : std::move(text.text);
 }
 
-std::string Expressions::compute(const Instruction& instruction) { return of_instruction(instruction).text; }
+std::string Expressions::compute(const Instruction& instruction) {
+    return of_instruction(instruction).text;
+}
 
 std::string Expressions::negated(ValueId condition) {
     return fmt::format("!{}", operand(condition, Binds::Postfix));
@@ -80,19 +87,22 @@ Expressions::Text Expressions::of_instruction(const Instruction& instruction) {
         case Op::Input: return {outer_.inputs[slot], Binds::Postfix};
         case Op::Uniform:
             if (module_.uniforms[slot].count == 1) return {outer_.uniforms[slot], Binds::Postfix};
-            return {fmt::format("{}[{}]", outer_.uniforms[slot], instruction.element), Binds::Postfix};
+            return {fmt::format("{}[{}]", outer_.uniforms[slot], instruction.element),
+                    Binds::Postfix};
         case Op::Swizzle: return swizzle(instruction);
         case Op::Compose: return compose(instruction);
         default: {
             const OpSpelling* row = row_of(instruction);
             if (row) return fill(*row, instruction);
-            fail(instruction, fmt::format("this target has no way to say {}", ir::info(instruction.op).name));
+            fail(instruction,
+                 fmt::format("this target has no way to say {}", ir::info(instruction.op).name));
             return {"0", Binds::Postfix};
         }
     }
 }
 
-std::string Expressions::literal(ir::Scalar scalar, std::uint32_t bits, const Instruction& instruction) {
+std::string Expressions::literal(ir::Scalar scalar, std::uint32_t bits,
+                                 const Instruction& instruction) {
     if (scalar == ir::Scalar::Bool) return bits ? "true" : "false";
     if (scalar == ir::Scalar::Int) return int_literal(bits);
     Result<std::string> text = float_literal(bits, spelling_);
@@ -110,14 +120,16 @@ Expressions::Text Expressions::constant(const Instruction& instruction) {
     }
     if (same_components(instruction, type.width) && spelling_.splat.text.ends_with(")")) {
         std::string text(spelling_.splat.text);
-        text.replace(text.find("%t"), 2, type_name(spelling_, static_cast<int>(type.scalar), type.width));
+        text.replace(text.find("%t"), 2,
+                     type_name(spelling_, static_cast<int>(type.scalar), type.width));
         text.replace(text.find("%0"), 2, literal(type.scalar, instruction.bits[0], instruction));
         return {std::move(text), Binds::Postfix};
     }
     std::string text(type_name(spelling_, static_cast<int>(type.scalar), type.width));
     for (int i = 0; i < type.width; ++i)
-        text.append(i ? ", " : "(").append(
-            literal(type.scalar, instruction.bits[static_cast<std::size_t>(i)], instruction));
+        text.append(i ? ", " : "(")
+            .append(
+                literal(type.scalar, instruction.bits[static_cast<std::size_t>(i)], instruction));
     return {text + ")", Binds::Postfix};
 }
 
@@ -140,9 +152,12 @@ Expressions::Text Expressions::compose(const Instruction& instruction) {
 
 const OpSpelling* Expressions::row_of(const Instruction& instruction) {
     const int dimension =
-        ir::is_sample(instruction.op) ? module_.samplers[static_cast<std::size_t>(instruction.slot)].dimension : 0;
+        ir::is_sample(instruction.op)
+            ? module_.samplers[static_cast<std::size_t>(instruction.slot)].dimension
+            : 0;
     for (const OpSpelling& row : spelling_.ops)
-        if (row.op == instruction.op && (row.dimension == 0 || row.dimension == dimension)) return &row;
+        if (row.op == instruction.op && (row.dimension == 0 || row.dimension == dimension))
+            return &row;
     return nullptr;
 }
 
@@ -157,13 +172,16 @@ std::optional<Expressions::Text> Expressions::repeated_scalar(ValueId value) {
     }
     if (is_splat(module_, definition)) return expression(definition.operands[0]);
     const auto lanes_end = definition.lanes.begin() + type.width;
-    if (definition.op == Op::Swizzle && std::count(definition.lanes.begin(), lanes_end, definition.lanes[0]) == type.width)
-        return Text{fmt::format("{}.{}", operand(definition.operands[0], Binds::Postfix), "xyzw"[definition.lanes[0]]),
+    if (definition.op == Op::Swizzle &&
+        std::count(definition.lanes.begin(), lanes_end, definition.lanes[0]) == type.width)
+        return Text{fmt::format("{}.{}", operand(definition.operands[0], Binds::Postfix),
+                                "xyzw"[definition.lanes[0]]),
                     Binds::Postfix};
     return std::nullopt;
 }
 
-// Which operands are printed as the scalar they repeat; one operand stays a vector, so that the result is one.
+// Which operands are printed as the scalar they repeat; one operand stays a vector, so that the
+// result is one.
 std::vector<bool> Expressions::collapsible(const OpSpelling& row, const Instruction& instruction) {
     std::vector<bool> collapse(instruction.operands.size());
     bool vector_left = false;

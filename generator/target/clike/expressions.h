@@ -1,5 +1,6 @@
-// Rebuilds expressions from instructions: values that the plan inlines become subexpressions, with no more
-// parentheses than the grammar needs and none of the grouping lost ((a + b) + c and a + (b + c) round differently).
+// Rebuilds expressions from instructions: values that the plan inlines become subexpressions, with
+// no more parentheses than the grammar needs and none of the grouping lost ((a + b) + c and a + (b
+// + c) round differently).
 #pragma once
 
 #include <functional>
@@ -23,7 +24,8 @@ struct OuterNames {
 
 class Expressions {
   public:
-    Expressions(const ir::Module& module, const Plan& plan, const Spelling& spelling, const OuterNames& outer);
+    Expressions(const ir::Module& module, const Plan& plan, const Spelling& spelling,
+                const OuterNames& outer);
 
     // The text that reads the value at the current place.
     std::string read(ir::ValueId value) { return operand(value, Binds::Ternary); }
@@ -34,7 +36,9 @@ class Expressions {
     // The variables that reading the value reads.
     std::vector<int> variables_read(ir::ValueId value) const;
 
-    void name_local(ir::ValueId value, std::string name) { locals_[ir::index_of(value)] = std::move(name); }
+    void name_local(ir::ValueId value, std::string name) {
+        locals_[ir::index_of(value)] = std::move(name);
+    }
     void name_variable(int variable, std::string name) {
         variable_names_[static_cast<std::size_t>(variable)] = std::move(name);
     }

@@ -1,5 +1,5 @@
-// Breaking works on the finished text of one statement: it holds no strings and no comments, so parentheses tell the
-// structure.
+// Breaking works on the finished text of one statement: it holds no strings and no comments, so
+// parentheses tell the structure.
 #include "generator/target/clike/layout.h"
 
 #include <algorithm>
@@ -12,8 +12,9 @@ struct Operator {
     int strength;  // loose ones are better places to break; a comma has 0
 };
 
-constexpr Operator operators[] = {{"?", 1}, {":", 1}, {"||", 2}, {"&&", 3}, {"<", 4}, {"<=", 4}, {">", 4}, {">=", 4},
-                                  {"==", 4}, {"!=", 4}, {"+", 5}, {"-", 5}, {"*", 6}, {"/", 6}};
+constexpr Operator operators[] = {{"?", 1},  {":", 1}, {"||", 2}, {"&&", 3}, {"<", 4},
+                                  {"<=", 4}, {">", 4}, {">=", 4}, {"==", 4}, {"!=", 4},
+                                  {"+", 5},  {"-", 5}, {"*", 6},  {"/", 6}};
 constexpr int strengths = 7;
 
 // The strength of the operator that starts here; -1 if none does.
@@ -25,7 +26,8 @@ int operator_at(std::string_view text, std::size_t i) {
     return -1;
 }
 
-// The best place to end a line of at most `width`: least nested, then loosest, then furthest right; 0 if there is none.
+// The best place to end a line of at most `width`: least nested, then loosest, then furthest right;
+// 0 if there is none.
 std::size_t best_break(std::string_view text, std::size_t width) {
     std::size_t best_at = 0;
     int best_cost = 0;
@@ -70,8 +72,7 @@ void put_statement(TextBuilder& out, std::string_view statement) {
 
 void put_comment(TextBuilder& out, std::string_view words) {
     std::string clean;
-    for (char c : words)
-        clean += c == '\n' || c == '\r' || c == '\t' ? ' ' : c == '\\' ? '/' : c;
+    for (char c : words) clean += c == '\n' || c == '\r' || c == '\t' ? ' ' : c == '\\' ? '/' : c;
     const auto room = static_cast<std::size_t>(std::max(20, line_width - out.column() - 3));
     std::string_view rest = clean;
     while (rest.size() > room) {

@@ -1,4 +1,5 @@
-// Shortest round-trip decimals come from fmt; the rest is making sure that they stay floats in the emitted language.
+// Shortest round-trip decimals come from fmt; the rest is making sure that they stay floats in the
+// emitted language.
 #include "generator/target/clike/literals.h"
 
 #include <bit>
@@ -13,8 +14,9 @@ Result<std::string> float_literal(std::uint32_t bits, const Spelling& spelling) 
     const float value = std::bit_cast<float>(bits);
     if (!std::isfinite(value)) {
         if (spelling.float_from_bits.empty())
-            return input_error("target-limit", fmt::format("this language has no way to write the constant {}",
-                                                           std::isnan(value) ? "NaN" : "infinity"));
+            return input_error("target-limit",
+                               fmt::format("this language has no way to write the constant {}",
+                                           std::isnan(value) ? "NaN" : "infinity"));
         std::string text(spelling.float_from_bits);
         text.replace(text.find("%0"), 2, fmt::format("0x{:08x}u", bits));
         return text;

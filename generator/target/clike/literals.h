@@ -9,8 +9,9 @@
 
 namespace intaglio::clike {
 
-// The shortest decimal that reads back to the same float, always with a point or an exponent: "0.125", "1.0", "1e-30".
-// Infinities and NaN become a cast from bits; error "target-limit" where the language has none.
+// The shortest decimal that reads back to the same float, always with a point or an exponent:
+// "0.125", "1.0", "1e-30". Infinities and NaN become a cast from bits; error "target-limit" where
+// the language has none.
 Result<std::string> float_literal(std::uint32_t bits, const Spelling& spelling);
 
 // "42", "-1"; the smallest int is written as a difference, since its digits alone overflow.

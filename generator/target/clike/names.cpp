@@ -8,39 +8,59 @@
 namespace intaglio::clike {
 namespace {
 
-// Keywords and reserved words of GLSL 4.60, ESSL 3.00 and HLSL (shader models 2 to 6), the types and functions that
-// the emitted text itself uses, and the words that C++ based Metal would refuse.  Types with digits: see is_reserved.
+// Keywords and reserved words of GLSL 4.60, ESSL 3.00 and HLSL (shader models 2 to 6), the types
+// and functions that the emitted text itself uses, and the words that C++ based Metal would refuse.
+// Types with digits: see is_reserved.
 constexpr std::string_view reserved_words =
-    " abs active all alignas alignof any asfloat asint asm asm_fragment asuint atan atomic_uint attribute auto bit "
-    "blendstate bool break buffer case cast catch cbuffer ceil centroid char clamp class clip coherent column_major "
-    "common compile compileshader computeshader const constant const_cast constexpr continue cos cosh cross dFdx dFdy "
-    "ddx ddy default degrees delete depthstencilstate depthstencilview device determinant dfdx dfdy discard distance "
-    "do domainshader dot double dword dynamic_cast else enum exp exp2 explicit export extern external "
+    " abs active all alignas alignof any asfloat asint asm asm_fragment asuint atan atomic_uint "
+    "attribute auto bit "
+    "blendstate bool break buffer case cast catch cbuffer ceil centroid char clamp class clip "
+    "coherent column_major "
+    "common compile compileshader computeshader const constant const_cast constexpr continue cos "
+    "cosh cross dFdx dFdy "
+    "ddx ddy default degrees delete depthstencilstate depthstencilview device determinant dfdx "
+    "dfdy discard distance "
+    "do domainshader dot double dword dynamic_cast else enum exp exp2 explicit export extern "
+    "external "
     "faceforward false filter fixed flat float floor fma fmod for fract frac friend frexp fragment "
     "fxgroup geometryshader goto groupshared half highp hullshader if "
     "imageBuffer in inline inout input inputpatch instance int interface intrinsic invariant "
-    "inverse inversesqrt isinf isnan kernel layout ldexp length lerp line lineadj linear linestream lit log log10 "
-    "log2 long lowp main mat matrix max mediump metal min mix mod modf mul mutable namespace new nointerpolation "
-    "noise noperspective normalize not null NULL operator or out output outputpatch packed packoffset partition pass "
-    "patch pixelfragment pixelshader point pointstream pow precise precision private protected public radians rcp "
-    "readonly reflect refract register reinterpret_cast resource restrict return round row_major rsqrt sample "
-    "sampler samplerstate saturate shared short sign signed sin sincos sinh sizeof smooth smoothstep snorm "
-    "sqrt stateblock stateblock_state static static_cast std step string struct subroutine superp switch tan tanh "
-    "tbuffer technique technique10 technique11 template tex1D tex2D tex2Dbias tex2Dgrad tex2Dlod tex2Dproj tex3D "
-    "tex3Dgrad tex3Dlod texCUBE texelFetch texture texture1D texture2D texture3D textureCube textureGrad textureLod "
-    "textureSize this thread threadgroup throw transpose triangle triangleadj trianglestream true trunc try typedef "
-    "typeid typename uint uniform union unorm unsigned using varying vec vector vertex vertexfragment vertexshader "
-    "virtual void volatile while writeonly xor and bitand bitor compl and_eq or_eq xor_eq not_eq using "
+    "inverse inversesqrt isinf isnan kernel layout ldexp length lerp line lineadj linear "
+    "linestream lit log log10 "
+    "log2 long lowp main mat matrix max mediump metal min mix mod modf mul mutable namespace new "
+    "nointerpolation "
+    "noise noperspective normalize not null NULL operator or out output outputpatch packed "
+    "packoffset partition pass "
+    "patch pixelfragment pixelshader point pointstream pow precise precision private protected "
+    "public radians rcp "
+    "readonly reflect refract register reinterpret_cast resource restrict return round row_major "
+    "rsqrt sample "
+    "sampler samplerstate saturate shared short sign signed sin sincos sinh sizeof smooth "
+    "smoothstep snorm "
+    "sqrt stateblock stateblock_state static static_cast std step string struct subroutine superp "
+    "switch tan tanh "
+    "tbuffer technique technique10 technique11 template tex1D tex2D tex2Dbias tex2Dgrad tex2Dlod "
+    "tex2Dproj tex3D "
+    "tex3Dgrad tex3Dlod texCUBE texelFetch texture texture1D texture2D texture3D textureCube "
+    "textureGrad textureLod "
+    "textureSize this thread threadgroup throw transpose triangle triangleadj trianglestream true "
+    "trunc try typedef "
+    "typeid typename uint uniform union unorm unsigned using varying vec vector vertex "
+    "vertexfragment vertexshader "
+    "virtual void volatile while writeonly xor and bitand bitor compl and_eq or_eq xor_eq not_eq "
+    "using "
     // Names that the shells of the targets use.
-    "Attributes Interpolants Targets VertexUniforms PixelUniforms pixel result vertex_main pixel_main ";
+    "Attributes Interpolants Targets VertexUniforms PixelUniforms pixel result vertex_main "
+    "pixel_main ";
 
-constexpr std::string_view typed_prefixes[] = {"vec",    "bvec",   "ivec",  "uvec",    "dvec",      "mat",   "dmat",
-                                               "float",  "half",   "int",   "uint",    "bool",      "double", "dword",
-                                               "min16float", "min10float", "min16int", "min12int", "min16uint", "fvec",
-                                               "hvec", "short", "ushort", "char", "uchar", "long", "ulong"};
-constexpr std::string_view sampler_prefixes[] = {"sampler", "isampler", "usampler", "image", "iimage", "uimage",
-                                                 "Texture", "RWTexture", "Buffer", "Sampler", "texture1", "texture2",
-                                                 "texture3"};
+constexpr std::string_view typed_prefixes[] = {
+    "vec",        "bvec",       "ivec",     "uvec",     "dvec",      "mat",    "dmat",
+    "float",      "half",       "int",      "uint",     "bool",      "double", "dword",
+    "min16float", "min10float", "min16int", "min12int", "min16uint", "fvec",   "hvec",
+    "short",      "ushort",     "char",     "uchar",    "long",      "ulong"};
+constexpr std::string_view sampler_prefixes[] = {
+    "sampler",   "isampler", "usampler", "image",    "iimage",   "uimage",  "Texture",
+    "RWTexture", "Buffer",   "Sampler",  "texture1", "texture2", "texture3"};
 
 bool is_shape_suffix(std::string_view text) {
     for (char c : text)
@@ -69,12 +89,15 @@ std::string legal_name(std::string_view name) {
     std::string legal;
     for (char c : name) {
         const bool word = std::isalnum(static_cast<unsigned char>(c)) != 0;
-        if (word) legal += c;
-        else if (!legal.empty() && legal.back() != '_') legal += '_';
+        if (word)
+            legal += c;
+        else if (!legal.empty() && legal.back() != '_')
+            legal += '_';
     }
     while (!legal.empty() && legal.back() == '_') legal.pop_back();
     if (legal.empty()) return legal;
-    if (std::isdigit(static_cast<unsigned char>(legal[0])) || legal.starts_with("gl_")) legal.insert(0, "n_");
+    if (std::isdigit(static_cast<unsigned char>(legal[0])) || legal.starts_with("gl_"))
+        legal.insert(0, "n_");
     if (is_reserved(legal)) legal += "_value";
     return legal;
 }

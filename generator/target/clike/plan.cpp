@@ -1,4 +1,5 @@
-// The plan in three steps, each a small class: forms (what is inlined), variables (what shares storage), precise.
+// The plan in three steps, each a small class: forms (what is inlined), variables (what shares
+// storage), precise.
 #include "generator/target/clike/plan.h"
 
 #include <algorithm>
@@ -24,7 +25,8 @@ bool is_computed(const Instruction* definition) {
 // A read whose value is stored under another name at once: the value needs no name of its own.
 bool is_store(const Use& use) {
     const Op op = use.user->op;
-    return op == Op::Loop || op == Op::Yield || op == Op::Return || (op == Op::BreakIf && use.operand > 0);
+    return op == Op::Loop || op == Op::Yield || op == Op::Return ||
+           (op == Op::BreakIf && use.operand > 0);
 }
 
 }  // namespace
@@ -38,11 +40,15 @@ bool is_splat(const ir::Module& module, const Instruction& instruction) {
                        [&](ValueId operand) { return operand == first; });
 }
 
-// Which values are part of the expression that reads them.  Works backwards, so that every reader is decided first.
+// Which values are part of the expression that reads them.  Works backwards, so that every reader
+// is decided first.
 class FormPlanner {
   public:
     explicit FormPlanner(Plan& plan)
-        : plan_(plan), counts_(plan.module_.values.size()), sites_(counts_.size()), conditional_(counts_.size()) {}
+        : plan_(plan),
+          counts_(plan.module_.values.size()),
+          sites_(counts_.size()),
+          conditional_(counts_.size()) {}
 
     void run() {
         const auto& instructions = plan_.uses_.instructions();
@@ -69,7 +75,8 @@ class FormPlanner {
     bool is_transparent(const Instruction& instruction) {
         const ValueId result = instruction.result();
         if (!plan_.module_.value(result).name.empty()) return false;
-        if (instruction.op != Op::Swizzle && instruction.op != Op::ToFloat && !is_splat(plan_.module_, instruction))
+        if (instruction.op != Op::Swizzle && instruction.op != Op::ToFloat &&
+            !is_splat(plan_.module_, instruction))
             return false;
         const ValueId operand = instruction.operands[0];
         if (!is_computed(plan_.uses_.definition(operand))) return true;
@@ -89,8 +96,11 @@ class FormPlanner {
             return;
         }
         const bool transparent = is_transparent(instruction);
-        form(result) = is_leaf(instruction.op) || transparent || can_inline(instruction) ? Form::Inline : Form::Local;
-        for (ValueId operand : instruction.operands) count(operand) += transparent ? count(result) : 1;
+        form(result) = is_leaf(instruction.op) || transparent || can_inline(instruction)
+                           ? Form::Inline
+                           : Form::Local;
+        for (ValueId operand : instruction.operands)
+            count(operand) += transparent ? count(result) : 1;
     }
 
     bool can_inline(const Instruction& instruction) {
@@ -100,7 +110,8 @@ class FormPlanner {
         const Use& use = live[0];
         if (!plan_.module_.value(result).name.empty() && !is_store(use)) return false;
         Place site = plan_.uses_.place(*use.user);
-        bool conditional = use.user->op == Op::And || use.user->op == Op::Or || use.user->op == Op::Select;
+        bool conditional =
+            use.user->op == Op::And || use.user->op == Op::Or || use.user->op == Op::Select;
         if (use.user->results.size() == 1 && form(use.user->result()) == Form::Inline) {
             site = sites_[ir::index_of(use.user->result())];
             conditional = conditional || conditional_[ir::index_of(use.user->result())];
@@ -131,13 +142,14 @@ class FormPlanner {
     }
 
     Plan& plan_;
-    std::vector<int> counts_;       // how often the value is printed if it is inlined
-    std::vector<Place> sites_;      // of an inlined value: the statement that it ends up in
-    std::vector<bool> conditional_; // of an inlined value: within an operand that may not be evaluated
+    std::vector<int> counts_;   // how often the value is printed if it is inlined
+    std::vector<Place> sites_;  // of an inlined value: the statement that it ends up in
+    std::vector<bool>
+        conditional_;  // of an inlined value: within an operand that may not be evaluated
 };
 
-// Which values live in which variable.  Times within a region count in halves: statement i runs at 2 i + 1, and a
-// store that was moved before it at 2 i.
+// Which values live in which variable.  Times within a region count in halves: statement i runs at
+// 2 i + 1, and a store that was moved before it at 2 i.
 class VariablePlanner {
   public:
     explicit VariablePlanner(Plan& plan) : plan_(plan) {}
@@ -185,20 +197,24 @@ class VariablePlanner {
                 }
             }
             const Instruction* loop = plan_.uses_.owner(*place.region);
-            const bool stores_next = loop && loop->op == Op::Loop && (user.op == Op::Yield || user.op == Op::BreakIf);
+            const bool stores_next =
+                loop && loop->op == Op::Loop && (user.op == Op::Yield || user.op == Op::BreakIf);
             const int carried = use.operand - (user.op == Op::BreakIf ? 1 : 0);
             if (stores_next && carried >= 0) {
                 const auto planned = plan_.regions_.find(loop);
-                const int moved = planned == plan_.regions_.end()
-                                      ? -1
-                                      : planned->second.moved_before[static_cast<std::size_t>(carried)];
-                const ValueId next = terminator(*place.region).operands[static_cast<std::size_t>(carried)];
+                const int moved =
+                    planned == plan_.regions_.end()
+                        ? -1
+                        : planned->second.moved_before[static_cast<std::size_t>(carried)];
+                const ValueId next =
+                    terminator(*place.region).operands[static_cast<std::size_t>(carried)];
                 if (user.op == Op::Yield && moved >= 0) {
                     reads.push_back({{place.region, moved}, true});
                     continue;
                 }
                 // A break after the move finds the value stored.
-                if (user.op == Op::BreakIf && moved >= 0 && moved <= place.index && value == next) continue;
+                if (user.op == Op::BreakIf && moved >= 0 && moved <= place.index && value == next)
+                    continue;
             }
             reads.push_back({place, false});
         }
@@ -228,13 +244,16 @@ class VariablePlanner {
         });
     }
 
-    // Whether the loop or if may store into the storage of `value`, which it starts from, since nobody reads the old
-    // value later.  A value that is computed at the same level becomes the variable's first content.
+    // Whether the loop or if may store into the storage of `value`, which it starts from, since
+    // nobody reads the old value later.  A value that is computed at the same level becomes the
+    // variable's first content.
     bool can_take_over(ValueId value, const Instruction& taker, const std::vector<int>& taken) {
         const Place place = plan_.uses_.place(taker);
         if (plan_.uses_.home(value).region != place.region) return false;
         if (form(value) == Form::Variable) {
-            if (variable(value) < 0 || plan_.variables_[static_cast<std::size_t>(variable(value))].index) return false;
+            if (variable(value) < 0 ||
+                plan_.variables_[static_cast<std::size_t>(variable(value))].index)
+                return false;
             if (std::find(taken.begin(), taken.end(), variable(value)) != taken.end()) return false;
         } else if (form(value) != Form::Local) {
             return false;
@@ -254,11 +273,13 @@ class VariablePlanner {
         const Region& body = loop.regions[0];
         RegionPlan planned;
         for (std::size_t k = 0; k < loop.operands.size(); ++k) {
-            const ValueId initial = loop.operands[k], parameter = body.parameters[k + 1], result = loop.results[k];
+            const ValueId initial = loop.operands[k], parameter = body.parameters[k + 1],
+                          result = loop.results[k];
             const ValueId next = terminator(body).operands[k];
             const bool shared = can_take_over(initial, loop, planned.variables);
             const int chosen = shared ? take_over(initial, {parameter, result, initial, next})
-                                      : new_variable(plan_.module_.type(initial), {parameter, result, initial, next});
+                                      : new_variable(plan_.module_.type(initial),
+                                                     {parameter, result, initial, next});
             planned.variables.push_back(chosen);
             planned.declared.push_back(!shared);
             planned.moved_before.push_back(-1);
@@ -284,7 +305,8 @@ class VariablePlanner {
                 if (chosen < 0 && can_take_over(old, branch, planned.variables))
                     chosen = take_over(old, {result, old, then_value});
             planned.declared.push_back(chosen < 0);
-            if (chosen < 0) chosen = new_variable(plan_.module_.type(result), {result, then_value, else_value});
+            if (chosen < 0)
+                chosen = new_variable(plan_.module_.type(result), {result, then_value, else_value});
             planned.variables.push_back(chosen);
             store(result, chosen);
         }
@@ -293,7 +315,8 @@ class VariablePlanner {
         for (const Region& region : branch.regions) run(region);
     }
 
-    // Next values that are computed right into the loop's variables, where no old value is read afterwards.
+    // Next values that are computed right into the loop's variables, where no old value is read
+    // afterwards.
     struct Early {
         std::size_t carried;
         ValueId next;
@@ -334,15 +357,19 @@ class VariablePlanner {
             const Place home = plan_.uses_.home(next);
             const Instruction* definition = plan_.uses_.definition(next);
             if (home.region != &body || !definition) continue;
-            const bool computed = is_computed(definition) && (form(next) == Form::Inline || form(next) == Form::Local);
-            if (!computed && !owns_fresh_variable(*definition, next, planned.variables[k])) continue;
+            const bool computed = is_computed(definition) &&
+                                  (form(next) == Form::Inline || form(next) == Form::Local);
+            if (!computed && !owns_fresh_variable(*definition, next, planned.variables[k]))
+                continue;
             early.push_back({k, next, home.index, false, form(next), variable(next)});
             rename(*definition, next, planned.variables[k]);
         }
         const std::size_t computed_count = early.size();
         for (std::size_t k = 0; k < next_values.size(); ++k)
             for (std::size_t other = 0; other < computed_count; ++other) {
-                if (next_values[k] != body.parameters[early[other].carried + 1] || early[other].carried == k) continue;
+                if (next_values[k] != body.parameters[early[other].carried + 1] ||
+                    early[other].carried == k)
+                    continue;
                 const int index = early[other].index;
                 early.push_back({k, next_values[k], index, true, Form::Variable, -1});
                 planned.moved_before[k] = index;
@@ -350,12 +377,13 @@ class VariablePlanner {
         return early;
     }
 
-    // An if that declares a variable of its own for this result could store into the loop's, unless another of its
-    // results took that over.
+    // An if that declares a variable of its own for this result could store into the loop's, unless
+    // another of its results took that over.
     bool owns_fresh_variable(const Instruction& definition, ValueId result, int storage) {
         if (definition.op != Op::If) return false;
         const RegionPlan& planned = plan_.regions_[&definition];
-        if (std::find(planned.variables.begin(), planned.variables.end(), storage) != planned.variables.end())
+        if (std::find(planned.variables.begin(), planned.variables.end(), storage) !=
+            planned.variables.end())
             return false;
         const auto j = std::find(definition.results.begin(), definition.results.end(), result);
         return planned.declared[static_cast<std::size_t>(j - definition.results.begin())];
@@ -406,8 +434,9 @@ class VariablePlanner {
     Plan& plan_;
 };
 
-// Every sum, difference and product must end up under `precise`.  Outputs are declared so by the printer; this finds
-// what the keyword does not reach from there and declares (or splits off) locals and variables for it.
+// Every sum, difference and product must end up under `precise`.  Outputs are declared so by the
+// printer; this finds what the keyword does not reach from there and declares (or splits off)
+// locals and variables for it.
 class PrecisePlanner {
   public:
     explicit PrecisePlanner(Plan& plan) : plan_(plan), reached_(plan.module_.values.size()) {}
@@ -450,8 +479,10 @@ class PrecisePlanner {
                 if (definition->results[i] == value) reach_stores(*definition, i);
         } else {
             // The compiler does not look into an expression that a component is taken of.
-            const bool stops = definition->op == Op::Swizzle && plan_.form(definition->operands[0]) == Form::Inline;
-            if (!stops || is_splat(plan_.module_, *definition))  // a splat is a constructor or a cast
+            const bool stops = definition->op == Op::Swizzle &&
+                               plan_.form(definition->operands[0]) == Form::Inline;
+            if (!stops ||
+                is_splat(plan_.module_, *definition))  // a splat is a constructor or a cast
                 for (ValueId operand : definition->operands) reach(operand);
         }
     }
@@ -476,8 +507,11 @@ class PrecisePlanner {
 };
 
 Plan::Plan(const ir::Module& module, PlanOptions options)
-    : module_(module), uses_(module), forms_(module.values.size(), Form::Dead),
-      variables_of_(module.values.size(), -1), precise_(module.values.size()) {
+    : module_(module),
+      uses_(module),
+      forms_(module.values.size(), Form::Dead),
+      variables_of_(module.values.size(), -1),
+      precise_(module.values.size()) {
     FormPlanner(*this).run();
     VariablePlanner(*this).run(module.body);
     if (options.precise) PrecisePlanner(*this).run();

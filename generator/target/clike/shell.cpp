@@ -1,4 +1,5 @@
-// Names are handed out in one order for both stages: interpolants first, so that the pixel stage keeps the DSL's.
+// Names are handed out in one order for both stages: interpolants first, so that the pixel stage
+// keeps the DSL's.
 #include "generator/target/clike/shell.h"
 
 #include <algorithm>
@@ -35,18 +36,21 @@ InterfaceNames::InterfaceNames(const ir::Program& program, std::string_view attr
     for (const ir::Declaration& output : pixel.outputs)
         if (output.semantic == ir::Semantic::Target) declare(Kind::Target, output.name);
     for (const ir::Declaration& input : vertex.inputs)
-        if (input.semantic == ir::Semantic::Attribute) declare(Kind::Attribute, input.name, attribute_prefix);
+        if (input.semantic == ir::Semantic::Attribute)
+            declare(Kind::Attribute, input.name, attribute_prefix);
 }
 
 std::vector<std::string> InterfaceNames::of_uniforms(const ir::Module& module) const {
     std::vector<std::string> names;
-    for (const ir::Uniform& uniform : module.uniforms) names.push_back(of(Kind::Uniform, uniform.name));
+    for (const ir::Uniform& uniform : module.uniforms)
+        names.push_back(of(Kind::Uniform, uniform.name));
     return names;
 }
 
 std::vector<std::string> InterfaceNames::of_samplers(const ir::Module& module) const {
     std::vector<std::string> names;
-    for (const ir::Sampler& sampler : module.samplers) names.push_back(of(Kind::Sampler, sampler.name));
+    for (const ir::Sampler& sampler : module.samplers)
+        names.push_back(of(Kind::Sampler, sampler.name));
     return names;
 }
 
@@ -65,8 +69,10 @@ NameScope InterfaceNames::scope_of(const ir::Program& program, ir::Stage stage) 
     NameScope scope = scope_of_uniforms(module);
     for (const auto* declarations : {&module.inputs, &module.outputs})
         for (const ir::Declaration& declaration : *declarations) {
-            if (declaration.semantic == ir::Semantic::Attribute) scope.take(of(Kind::Attribute, declaration.name));
-            if (declaration.semantic == ir::Semantic::Target) scope.take(of(Kind::Target, declaration.name));
+            if (declaration.semantic == ir::Semantic::Attribute)
+                scope.take(of(Kind::Attribute, declaration.name));
+            if (declaration.semantic == ir::Semantic::Target)
+                scope.take(of(Kind::Target, declaration.name));
             if (declaration.semantic != ir::Semantic::Interpolant) continue;
             const auto name = names_.find({Kind::Interpolant, declaration.name});
             if (name != names_.end()) scope.take(name->second);
@@ -74,7 +80,8 @@ NameScope InterfaceNames::scope_of(const ir::Program& program, ir::Stage stage) 
     return scope;
 }
 
-void put_header(TextBuilder& out, const ir::Program& program, ir::Stage stage, const Target& target) {
+void put_header(TextBuilder& out, const ir::Program& program, ir::Stage stage,
+                const Target& target) {
     put_comment(out, fmt::format("{}: {} stage for {}", program.name,
                                  stage == ir::Stage::Vertex ? "vertex" : "pixel", target.name));
     std::string_view description = program.description;
@@ -86,7 +93,8 @@ void put_header(TextBuilder& out, const ir::Program& program, ir::Stage stage, c
     // A setting stays on one line.
     std::string line = "Settings:";
     for (std::size_t i = 0; i < program.settings.size(); ++i) {
-        const std::string setting = program.settings[i] + (i + 1 < program.settings.size() ? "," : "");
+        const std::string setting =
+            program.settings[i] + (i + 1 < program.settings.size() ? "," : "");
         if (line.size() + 1 + setting.size() + 3 > line_width) {
             put_comment(out, line);
             line = " ";
@@ -115,14 +123,17 @@ Result<int> interpolant_location(const ir::Program& program, const ir::Declarati
         if (output.semantic != ir::Semantic::Interpolant) continue;
         if (output.name == pixel_input.name) {
             if (output.type == pixel_input.type) return location;
-            return input_error("stages-disagree",
-                               fmt::format("the vertex stage gives {} as {}, the pixel stage reads it as {}",
-                                           output.name, ir::to_string(output.type), ir::to_string(pixel_input.type)));
+            return input_error(
+                "stages-disagree",
+                fmt::format("the vertex stage gives {} as {}, the pixel stage reads it as {}",
+                            output.name, ir::to_string(output.type),
+                            ir::to_string(pixel_input.type)));
         }
         ++location;
     }
     return input_error("stages-disagree",
-                       fmt::format("the pixel stage reads {}, which the vertex stage does not give", pixel_input.name));
+                       fmt::format("the pixel stage reads {}, which the vertex stage does not give",
+                                   pixel_input.name));
 }
 
 int sampler_slot(const ir::Program& program, const std::string& name) {
@@ -133,8 +144,9 @@ int sampler_slot(const ir::Program& program, const std::string& name) {
     }
     for (const ir::Sampler& sampler : program.vertex.samplers) {
         if (sampler.name == name) return slot;
-        const bool shared = std::any_of(program.pixel.samplers.begin(), program.pixel.samplers.end(),
-                                        [&](const ir::Sampler& other) { return other.name == sampler.name; });
+        const bool shared =
+            std::any_of(program.pixel.samplers.begin(), program.pixel.samplers.end(),
+                        [&](const ir::Sampler& other) { return other.name == sampler.name; });
         if (!shared) ++slot;
     }
     return slot;
@@ -144,16 +156,21 @@ Status check_shared_uniforms(const ir::Program& program) {
     for (const ir::Uniform& a : program.vertex.uniforms)
         for (const ir::Uniform& b : program.pixel.uniforms)
             if (a.name == b.name && (a.type != b.type || a.count != b.count))
-                return input_error("uniform-conflict", fmt::format("the stages declare the uniform {} differently, "
-                                                                   "and it is one uniform to both", a.name));
+                return input_error("uniform-conflict",
+                                   fmt::format("the stages declare the uniform {} differently, "
+                                               "and it is one uniform to both",
+                                               a.name));
     return Done{};
 }
 
 bool has_rolled_loop(const ir::Region& region) {
-    return std::any_of(region.body.begin(), region.body.end(), [](const ir::Instruction& instruction) {
-        return (instruction.op == ir::Op::Loop && instruction.loop.form == ir::LoopForm::Rolled) ||
-               std::any_of(instruction.regions.begin(), instruction.regions.end(), has_rolled_loop);
-    });
+    return std::any_of(region.body.begin(), region.body.end(),
+                       [](const ir::Instruction& instruction) {
+                           return (instruction.op == ir::Op::Loop &&
+                                   instruction.loop.form == ir::LoopForm::Rolled) ||
+                                  std::any_of(instruction.regions.begin(),
+                                              instruction.regions.end(), has_rolled_loop);
+                       });
 }
 
 }  // namespace intaglio::clike

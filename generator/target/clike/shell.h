@@ -1,4 +1,5 @@
-// What surrounds a body in every C-like language: the header comment, and names that both stages agree on.
+// What surrounds a body in every C-like language: the header comment, and names that both stages
+// agree on.
 #pragma once
 
 #include <map>
@@ -16,13 +17,17 @@ namespace intaglio::clike {
 
 enum class Kind { Attribute, Interpolant, Target, Uniform, Sampler };
 
-// The names of everything a program declares outside its bodies, the same whichever stage is printed.
+// The names of everything a program declares outside its bodies, the same whichever stage is
+// printed.
 class InterfaceNames {
   public:
-    // attribute_prefix: before the names of vertex attributes, where they share the scope of interpolants; may be empty.
+    // attribute_prefix: before the names of vertex attributes, where they share the scope of
+    // interpolants; may be empty.
     InterfaceNames(const ir::Program& program, std::string_view attribute_prefix);
 
-    const std::string& of(Kind kind, const std::string& dsl_name) const { return names_.at({kind, dsl_name}); }
+    const std::string& of(Kind kind, const std::string& dsl_name) const {
+        return names_.at({kind, dsl_name});
+    }
     std::vector<std::string> of_uniforms(const ir::Module& module) const;
     std::vector<std::string> of_samplers(const ir::Module& module) const;
     // What the body of a stage sees: everything that its text declares globally.
@@ -37,19 +42,23 @@ class InterfaceNames {
     NameScope scope_;
 };
 
-// A name for a texture, with "<name>_sampler" free for the sampler state beside it in languages that part the two.
+// A name for a texture, with "<name>_sampler" free for the sampler state beside it in languages
+// that part the two.
 std::string declare_sampler(NameScope& scope, std::string_view wanted);
 
 // "name: pixel stage for glsl_450", the description, the settings.
-void put_header(TextBuilder& out, const ir::Program& program, ir::Stage stage, const Target& target);
+void put_header(TextBuilder& out, const ir::Program& program, ir::Stage stage,
+                const Target& target);
 
 // Appends a declaration with its comment: beside it if the line is short enough, else above.
 void put_declaration(TextBuilder& out, std::string_view declaration, std::string_view comment);
 
-// The place of the vertex stage's interpolant of this name among its interpolants.  Error "stages-disagree".
+// The place of the vertex stage's interpolant of this name among its interpolants.  Error
+// "stages-disagree".
 Result<int> interpolant_location(const ir::Program& program, const ir::Declaration& pixel_input);
 
-// Slots of a draw's samplers: those of the pixel stage in its order, then those that only the vertex stage has.
+// Slots of a draw's samplers: those of the pixel stage in its order, then those that only the
+// vertex stage has.
 int sampler_slot(const ir::Program& program, const std::string& name);
 
 // Error "uniform-conflict" if both stages declare one name differently, where they share names.

@@ -1,5 +1,6 @@
-// What differs between the C-like languages, as data: one row for each op, and the few words of statements.
-// The shared printer reads these and has no flags: a difference is a spelling here or a pass before.
+// What differs between the C-like languages, as data: one row for each op, and the few words of
+// statements. The shared printer reads these and has no flags: a difference is a spelling here or a
+// pass before.
 #pragma once
 
 #include <array>
@@ -11,28 +12,40 @@
 
 namespace intaglio::clike {
 
-// How tightly an expression binds, loosest first.  An operand that binds looser than its place gets parentheses.
+// How tightly an expression binds, loosest first.  An operand that binds looser than its place gets
+// parentheses.
 enum class Binds : std::uint8_t {
-    Ternary, LogicalOr, LogicalAnd, Equality, Relation, Sum, Product, Prefix, Postfix
+    Ternary,
+    LogicalOr,
+    LogicalAnd,
+    Equality,
+    Relation,
+    Sum,
+    Product,
+    Prefix,
+    Postfix
 };
 
-// In `text`, %0 to %3 are the operands, %t the name of the result type, %s the sampler.  Text that ends in ")" is a
-// call, whose operands need no parentheses; otherwise the row's own strength says what they need.
+// In `text`, %0 to %3 are the operands, %t the name of the result type, %s the sampler.  Text that
+// ends in ")" is a call, whose operands need no parentheses; otherwise the row's own strength says
+// what they need.
 struct OpSpelling {
     ir::Op op;
     std::string_view text;
     Binds binds = Binds::Postfix;
-    std::string_view scalars = {};  // digits: operands that may stay scalar where the others are vectors
-    int dimension = 0;              // texture reads: only for samplers of this dimension; 0: any
+    std::string_view scalars =
+        {};             // digits: operands that may stay scalar where the others are vectors
+    int dimension = 0;  // texture reads: only for samplers of this dimension; 0: any
 };
 
 struct Spelling {
     std::span<const OpSpelling> ops;
     std::array<std::array<std::string_view, 4>, 3> types;  // by ir::Scalar, then width - 1
-    OpSpelling splat;                  // a vector of one repeated scalar
+    OpSpelling splat;                                      // a vector of one repeated scalar
     std::string_view float_from_bits;  // of an infinity or NaN: %0 the bits; empty: cannot be said
-    std::string_view rolled_loop;      // stands before a loop that the schedule keeps rolled; may be empty
-    std::string_view precise;          // "precise ", or empty
+    std::string_view
+        rolled_loop;           // stands before a loop that the schedule keeps rolled; may be empty
+    std::string_view precise;  // "precise ", or empty
 };
 
 // The name of a type.

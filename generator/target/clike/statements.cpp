@@ -1,4 +1,5 @@
-// Follows the plan through the regions; what is stored at the end of a region is stored as if at once.
+// Follows the plan through the regions; what is stored at the end of a region is stored as if at
+// once.
 #include "generator/target/clike/statements.h"
 
 #include <algorithm>
@@ -23,10 +24,15 @@ struct Store {
 
 class BodyPrinter {
   public:
-    BodyPrinter(TextBuilder& out, const ir::Module& module, const Spelling& spelling, const OuterNames& outer,
-                const Ending& ending, NameScope& scope)
-        : out_(out), module_(module), spelling_(spelling), ending_(ending), scope_(scope),
-          plan_(module, {.precise = !spelling.precise.empty()}), expressions_(module, plan_, spelling, outer),
+    BodyPrinter(TextBuilder& out, const ir::Module& module, const Spelling& spelling,
+                const OuterNames& outer, const Ending& ending, NameScope& scope)
+        : out_(out),
+          module_(module),
+          spelling_(spelling),
+          ending_(ending),
+          scope_(scope),
+          plan_(module, {.precise = !spelling.precise.empty()}),
+          expressions_(module, plan_, spelling, outer),
           declared_(plan_.variables().size()) {}
 
     Status run() {
@@ -120,7 +126,8 @@ class BodyPrinter {
         const std::string_view fallback = fallback_name(module_, plan_.uses(), result);
         if (form == Form::Local) {
             const std::string name = scope_.declare(module_.value(result).name, fallback);
-            statement(fmt::format("{}{} {} = {};", plan_.is_precise(result) ? spelling_.precise : "",
+            statement(fmt::format("{}{} {} = {};",
+                                  plan_.is_precise(result) ? spelling_.precise : "",
                                   type_of(module_.type(result)), name, text));
             expressions_.name_local(result, name);
             return;
@@ -136,8 +143,9 @@ class BodyPrinter {
 
     void print_loop(const Instruction& loop) {
         if (loop.loop.form == ir::LoopForm::Unrolled) {
-            error_ = target_limit(module_, loop.origin, fmt::format("the loop {} was to be unrolled and was not",
-                                                                    loop.loop.name));
+            error_ = target_limit(
+                module_, loop.origin,
+                fmt::format("the loop {} was to be unrolled and was not", loop.loop.name));
             return;
         }
         begin_step(loop);
@@ -150,26 +158,31 @@ class BodyPrinter {
             statement(fmt::format("{} = {};", declare(planned.variables[k], "carried"), initial));
         }
         const int index_variable = plan_.variable(body.parameters[0]);
-        const std::string& wanted = plan_.variables()[static_cast<std::size_t>(index_variable)].name;
+        const std::string& wanted =
+            plan_.variables()[static_cast<std::size_t>(index_variable)].name;
         const bool free_choice = wanted.empty() || (wanted.size() == 1 && scope_.visible(wanted));
-        const std::string index = scope_.declare_everywhere(free_choice ? next_index_name() : wanted);
+        const std::string index =
+            scope_.declare_everywhere(free_choice ? next_index_name() : wanted);
         expressions_.name_variable(index_variable, index);
         const bool rolled = loop.loop.form == ir::LoopForm::Rolled;
-        open(fmt::format("{}for (int {} = 0; {} < {}; ++{}) {{", rolled ? spelling_.rolled_loop : "", index, index,
-                         loop.loop.trip_count, index));
+        open(fmt::format("{}for (int {} = 0; {} < {}; ++{}) {{",
+                         rolled ? spelling_.rolled_loop : "", index, index, loop.loop.trip_count,
+                         index));
         print_region(body);
         close();
         step_ = step;
     }
 
-    // i, j, k ... in the order of the text; two loops never share one, since old HLSL compilers let the first leak.
+    // i, j, k ... in the order of the text; two loops never share one, since old HLSL compilers let
+    // the first leak.
     std::string next_index_name() const {
         for (char letter = 'i'; letter <= 'n'; ++letter)
             if (!scope_.visible(std::string(1, letter))) return std::string(1, letter);
         return "i";
     }
 
-    // Carried values that are not in place yet.  A value that lives in the variable is there by the plan.
+    // Carried values that are not in place yet.  A value that lives in the variable is there by the
+    // plan.
     std::vector<Store> stores_at_end(const Region& region, const Instruction& yield) {
         const Instruction& owner = *plan_.uses().owner(region);
         const RegionPlan& planned = plan_.region_plan(owner);
@@ -192,7 +205,8 @@ class BodyPrinter {
             const ValueId value = instruction.operands[k + 1];
             const bool moved = planned.moved_before[k] >= 0 && planned.moved_before[k] <= index &&
                                value == region.body.back().operands[k];
-            if (!moved && !in_place(value, planned.variables[k])) stores.push_back({planned.variables[k], value});
+            if (!moved && !in_place(value, planned.variables[k]))
+                stores.push_back({planned.variables[k], value});
         }
         const std::string condition = expressions_.read(instruction.operands[0]);
         if (stores.empty()) return statement(fmt::format("if ({}) break;", condition));
@@ -222,7 +236,8 @@ class BodyPrinter {
         for (std::size_t j = 0; j < planned.variables.size(); ++j)
             if (planned.declared[j]) statement(declare(planned.variables[j], "chosen") + ";");
         const ValueId condition = branch.operands[0];
-        open(fmt::format("if ({}) {{", then_text ? expressions_.read(condition) : expressions_.negated(condition)));
+        open(fmt::format("if ({}) {{", then_text ? expressions_.read(condition)
+                                                 : expressions_.negated(condition)));
         print_region(branch.regions[then_text ? 0 : 1]);
         if (then_text && else_text) {
             close("} else {");
@@ -236,8 +251,8 @@ class BodyPrinter {
         step_ = step;
     }
 
-    // Stores as if all at once: one whose variable nobody else still reads goes first; where each waits for another,
-    // a copy of the old value breaks the circle.
+    // Stores as if all at once: one whose variable nobody else still reads goes first; where each
+    // waits for another, a copy of the old value breaks the circle.
     void print_stores(std::vector<Store> stores) {
         while (!stores.empty()) {
             auto free = std::find_if(stores.begin(), stores.end(), [&](const Store& store) {
@@ -275,7 +290,8 @@ class BodyPrinter {
         begin_step(instruction);
         if (ending_.stores.empty()) return print_result(instruction.operands[0]);
         for (std::size_t i = 0; i < instruction.operands.size(); ++i)
-            statement(fmt::format("{} = {};", ending_.stores[i], expressions_.read(instruction.operands[i])));
+            statement(fmt::format("{} = {};", ending_.stores[i],
+                                  expressions_.read(instruction.operands[i])));
         if (!ending_.after.empty()) statement(ending_.after);
     }
 
@@ -284,7 +300,8 @@ class BodyPrinter {
         const std::string text = expressions_.read(value);
         if (spelling_.precise.empty()) return statement(fmt::format("return {};", text));
         const std::string name = scope_.declare(ending_.result_name, "found");
-        statement(fmt::format("{}{} {} = {};", spelling_.precise, type_of(module_.type(value)), name, text));
+        statement(fmt::format("{}{} {} = {};", spelling_.precise, type_of(module_.type(value)),
+                              name, text));
         statement(fmt::format("return {};", name));
     }
 
@@ -303,8 +320,8 @@ class BodyPrinter {
 
 }  // namespace
 
-Status print_body(TextBuilder& out, const ir::Module& module, const Spelling& spelling, const OuterNames& outer,
-                  const Ending& ending, NameScope& scope) {
+Status print_body(TextBuilder& out, const ir::Module& module, const Spelling& spelling,
+                  const OuterNames& outer, const Ending& ending, NameScope& scope) {
     return BodyPrinter(out, module, spelling, outer, ending, scope).run();
 }
 

@@ -1,5 +1,5 @@
-// Prints the body of a stage or function: declarations, assignments, loops and ifs, with a comment where a step of
-// the technique begins.
+// Prints the body of a stage or function: declarations, assignments, loops and ifs, with a comment
+// where a step of the technique begins.
 #pragma once
 
 #include <string>
@@ -15,14 +15,14 @@ namespace intaglio::clike {
 // How a body hands over its outputs.
 struct Ending {
     std::string before;               // a first statement, "Targets result;"; may be empty
-    std::vector<std::string> stores;  // for each output what stands left of "=": "color"; empty: the one output is
-                                      // returned
-    std::string result_name;          // wanted for the returned value, should it need a name
-    std::string after;                // a last statement, "return result;"; may be empty
+    std::vector<std::string> stores;  // for each output what stands left of "=": "color"; empty:
+                                      // the one output is returned
+    std::string result_name;  // wanted for the returned value, should it need a name
+    std::string after;        // a last statement, "return result;"; may be empty
 };
 
 // `scope` holds the names that the shell has declared; `out` is inside the braces of the body.
-Status print_body(TextBuilder& out, const ir::Module& module, const Spelling& spelling, const OuterNames& outer,
-                  const Ending& ending, NameScope& scope);
+Status print_body(TextBuilder& out, const ir::Module& module, const Spelling& spelling,
+                  const OuterNames& outer, const Ending& ending, NameScope& scope);
 
 }  // namespace intaglio::clike

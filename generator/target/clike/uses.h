@@ -1,4 +1,5 @@
-// Where each value of a module is defined and read: what the plan of a text needs to know, gathered once.
+// Where each value of a module is defined and read: what the plan of a text needs to know, gathered
+// once.
 #pragma once
 
 #include <unordered_map>

@@ -19,14 +19,16 @@ struct Dialect {
     std::string_view volume_precision;       // a further line if there is a sampler3D; may be empty
     std::string_view attribute;
     std::string_view vertex_output;
-    std::string_view position;               // a line; may be empty
+    std::string_view position;  // a line; may be empty
     std::string_view pixel_input;
     std::string_view colour_target;
     std::string_view sampler;
-    std::string_view uniform_block;          // {0} binding, {1} name, ends in "{"; empty: uniforms are loose
+    std::string_view
+        uniform_block;  // {0} binding, {1} name, ends in "{"; empty: uniforms are loose
 };
 
 Result<Artifact> print_stage(const Dialect& dialect, const ir::Program& program, ir::Stage stage);
-Result<Artifact> print_function(const Dialect& dialect, const ir::Module& function, Binding binding);
+Result<Artifact> print_function(const Dialect& dialect, const ir::Module& function,
+                                Binding binding);
 
 }  // namespace intaglio::glsl

@@ -82,7 +82,8 @@ const glsl::Dialect dialect_450 = {
 
 // uintBitsToFloat is GLSL 3.30's and ESSL 3.00's own.  Neither knows `precise` or loop hints.
 constexpr glsl::Dialect plain_dialect(const Target& target, std::string_view version,
-                                      std::string_view default_precision, std::string_view volume_precision) {
+                                      std::string_view default_precision,
+                                      std::string_view volume_precision) {
     return {.target = target,
             .spelling = spelling("", ""),
             .function_spelling = spelling("", ""),

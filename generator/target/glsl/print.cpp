@@ -1,4 +1,6 @@
 // The shells of GLSL stages and functions around the shared body printer.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "generator/target/clike/layout.h"
@@ -15,22 +17,28 @@ using clike::Kind;
 constexpr int vertex_uniforms_binding = 0, pixel_uniforms_binding = 1, first_sampler_binding = 2;
 
 std::string type_of(const Dialect& dialect, ir::Type type) {
-    return std::string(clike::type_name(dialect.spelling, static_cast<int>(type.scalar), type.width));
+    return std::string(
+        clike::type_name(dialect.spelling, static_cast<int>(type.scalar), type.width));
 }
 
-std::string fill(std::string_view pattern, int number, std::string_view type, std::string_view name) {
+std::string fill(std::string_view pattern, int number, std::string_view type,
+                 std::string_view name) {
     return fmt::format(fmt::runtime(pattern), number, type, name);
 }
 
-std::string uniform_declaration(const Dialect& dialect, const ir::Uniform& uniform, const std::string& name) {
+std::string uniform_declaration(const Dialect& dialect, const ir::Uniform& uniform,
+                                const std::string& name) {
     const std::string count = uniform.count > 1 ? fmt::format("[{}]", uniform.count) : "";
     return fmt::format("{} {}{}", type_of(dialect, uniform.type), name, count);
 }
 
-std::string_view sampler_type(const ir::Sampler& sampler) { return sampler.dimension == 3 ? "sampler3D" : "sampler2D"; }
+std::string_view sampler_type(const ir::Sampler& sampler) {
+    return sampler.dimension == 3 ? "sampler3D" : "sampler2D";
+}
 
 void put_uniforms(TextBuilder& out, const Dialect& dialect, const ir::Module& module,
-                  const std::vector<std::string>& names, int binding, std::string_view block) {
+                  const std::vector<std::string>& names, int binding, std::string_view block,
+                  std::string_view instance = {}) {
     if (module.uniforms.empty()) return;
     const bool loose = dialect.uniform_block.empty();
     if (!loose) {
@@ -38,16 +46,30 @@ void put_uniforms(TextBuilder& out, const Dialect& dialect, const ir::Module& mo
         out.indent();
     }
     for (std::size_t i = 0; i < names.size(); ++i)
-        clike::put_declaration(out, fmt::format("{}{};", loose ? "uniform " : "",
-                                                uniform_declaration(dialect, module.uniforms[i], names[i])),
-                               module.uniforms[i].comment);
+        clike::put_declaration(
+            out,
+            fmt::format("{}{};", loose ? "uniform " : "",
+                        uniform_declaration(dialect, module.uniforms[i], names[i])),
+            module.uniforms[i].comment);
     if (!loose) {
         out.outdent();
-        out.line("};");
+        out.format("}}{}{};", instance.empty() ? "" : " ", instance);
     }
 }
 
-void put_head(TextBuilder& out, const Dialect& dialect, const ir::Program& program, ir::Stage stage) {
+// GLSL lets no two blocks of a program have a member of one name, unless one of them is an instance
+// with a name.
+bool stages_share_a_uniform(const ir::Program& program) {
+    const auto& pixel = program.pixel.uniforms;
+    return std::any_of(pixel.begin(), pixel.end(), [&](const ir::Uniform& a) {
+        const auto& vertex = program.vertex.uniforms;
+        return std::any_of(vertex.begin(), vertex.end(),
+                           [&](const ir::Uniform& b) { return a.name == b.name; });
+    });
+}
+
+void put_head(TextBuilder& out, const Dialect& dialect, const ir::Program& program,
+              ir::Stage stage) {
     const ir::Module& module = clike::stage_of(program, stage);
     out.line(dialect.version);
     if (!dialect.rolled_loop_extension.empty() && clike::has_rolled_loop(module.body))
@@ -66,8 +88,9 @@ void put_head(TextBuilder& out, const Dialect& dialect, const ir::Program& progr
 }
 
 // Declares inputs; their names as the body reads them.
-Result<std::vector<std::string>> put_inputs(TextBuilder& out, const Dialect& dialect, const ir::Program& program,
-                                            ir::Stage stage, const clike::InterfaceNames& interface) {
+Result<std::vector<std::string>> put_inputs(TextBuilder& out, const Dialect& dialect,
+                                            const ir::Program& program, ir::Stage stage,
+                                            const clike::InterfaceNames& interface) {
     std::vector<std::string> names;
     int attribute = 0;
     for (const ir::Declaration& input : clike::stage_of(program, stage).inputs) {
@@ -79,14 +102,15 @@ Result<std::vector<std::string>> put_inputs(TextBuilder& out, const Dialect& dia
             location = *found;
         }
         names.push_back(interface.of(pixel ? Kind::Interpolant : Kind::Attribute, input.name));
-        out.line(fill(pixel ? dialect.pixel_input : dialect.attribute, location, type_of(dialect, input.type),
-                      names.back()));
+        out.line(fill(pixel ? dialect.pixel_input : dialect.attribute, location,
+                      type_of(dialect, input.type), names.back()));
     }
     if (!names.empty()) out.line();
     return names;
 }
 
-std::vector<std::string> put_outputs(TextBuilder& out, const Dialect& dialect, const ir::Module& module,
+std::vector<std::string> put_outputs(TextBuilder& out, const Dialect& dialect,
+                                     const ir::Module& module,
                                      const clike::InterfaceNames& interface) {
     std::vector<std::string> names;
     int location = 0;
@@ -98,8 +122,8 @@ std::vector<std::string> put_outputs(TextBuilder& out, const Dialect& dialect, c
         }
         const bool colour = output.semantic == ir::Semantic::Target;
         names.push_back(interface.of(colour ? Kind::Target : Kind::Interpolant, output.name));
-        out.line(fill(colour ? dialect.colour_target : dialect.vertex_output, location++, type_of(dialect, output.type),
-                      names.back()));
+        out.line(fill(colour ? dialect.colour_target : dialect.vertex_output, location++,
+                      type_of(dialect, output.type), names.back()));
     }
     if (!names.empty()) out.line();
     return names;
@@ -108,8 +132,9 @@ std::vector<std::string> put_outputs(TextBuilder& out, const Dialect& dialect, c
 void put_samplers(TextBuilder& out, const Dialect& dialect, const ir::Module& module,
                   const std::vector<std::string>& names, const std::vector<int>& slots) {
     for (std::size_t i = 0; i < names.size(); ++i)
-        clike::put_declaration(out, fill(dialect.sampler, first_sampler_binding + slots[i],
-                                         sampler_type(module.samplers[i]), names[i]),
+        clike::put_declaration(out,
+                               fill(dialect.sampler, first_sampler_binding + slots[i],
+                                    sampler_type(module.samplers[i]), names[i]),
                                module.samplers[i].comment);
 }
 
@@ -126,55 +151,77 @@ Result<Artifact> print_stage(const Dialect& dialect, const ir::Program& program,
 
     Result<std::vector<std::string>> inputs = put_inputs(out, dialect, program, stage, interface);
     if (!inputs) return inputs.error();
-    const clike::OuterNames outer{std::move(*inputs), interface.of_uniforms(module), interface.of_samplers(module)};
-    put_uniforms(out, dialect, module, outer.uniforms, vertex ? vertex_uniforms_binding : pixel_uniforms_binding,
-                 vertex ? "VertexUniforms" : "PixelUniforms");
+    clike::OuterNames outer{std::move(*inputs), interface.of_uniforms(module),
+                            interface.of_samplers(module)};
+    clike::NameScope scope = interface.scope_of(program, stage);
+    if (vertex && !dialect.uniform_block.empty() && stages_share_a_uniform(program)) {
+        const std::string instance = scope.declare("vertex_uniforms");
+        put_uniforms(out, dialect, module, outer.uniforms, vertex_uniforms_binding,
+                     "VertexUniforms", instance);
+        for (std::string& name : outer.uniforms) name = fmt::format("{}.{}", instance, name);
+    } else {
+        put_uniforms(out, dialect, module, outer.uniforms,
+                     vertex ? vertex_uniforms_binding : pixel_uniforms_binding,
+                     vertex ? "VertexUniforms" : "PixelUniforms");
+    }
     std::vector<int> slots;
-    for (const ir::Sampler& sampler : module.samplers) slots.push_back(clike::sampler_slot(program, sampler.name));
+    for (const ir::Sampler& sampler : module.samplers)
+        slots.push_back(clike::sampler_slot(program, sampler.name));
     put_samplers(out, dialect, module, outer.samplers, slots);
     if (!module.uniforms.empty() || !module.samplers.empty()) out.line();
     const clike::Ending ending{{}, put_outputs(out, dialect, module, interface), {}, {}};
 
     out.line("void main() {");
     out.indent();
-    clike::NameScope scope = interface.scope_of(program, stage);
     scope.open();
-    if (Status status = clike::print_body(out, module, dialect.spelling, outer, ending, scope); !status)
+    if (Status status = clike::print_body(out, module, dialect.spelling, outer, ending, scope);
+        !status)
         return status.error();
     out.outdent();
     out.line("}");
     return Artifact{out.take(), "main", stage, vertex ? ".vert" : ".frag", {}};
 }
 
-Result<Artifact> print_function(const Dialect& dialect, const ir::Module& function, Binding binding) {
+Result<Artifact> print_function(const Dialect& dialect, const ir::Module& function,
+                                Binding binding) {
     clike::NameScope scope;
     clike::OuterNames outer;
     const std::string name = scope.declare(function.name, "find");
-    for (const ir::Declaration& input : function.inputs) outer.inputs.push_back(scope.declare(input.name));
-    for (const ir::Sampler& sampler : function.samplers) outer.samplers.push_back(clike::declare_sampler(scope, sampler.name));
-    for (const ir::Uniform& uniform : function.uniforms) outer.uniforms.push_back(scope.declare(uniform.name));
+    for (const ir::Declaration& input : function.inputs)
+        outer.inputs.push_back(scope.declare(input.name));
+    for (const ir::Sampler& sampler : function.samplers)
+        outer.samplers.push_back(clike::declare_sampler(scope, sampler.name));
+    for (const ir::Uniform& uniform : function.uniforms)
+        outer.uniforms.push_back(scope.declare(uniform.name));
 
     TextBuilder out;
     clike::put_comment(out, fmt::format("{}: a function for {}", name, dialect.target.name));
     std::vector<std::string> parameters;
     for (std::size_t i = 0; i < outer.inputs.size(); ++i)
-        parameters.push_back(fmt::format("{} {}", type_of(dialect, function.inputs[i].type), outer.inputs[i]));
+        parameters.push_back(
+            fmt::format("{} {}", type_of(dialect, function.inputs[i].type), outer.inputs[i]));
     if (binding == Binding::Globals) {
-        put_uniforms(out, dialect, function, outer.uniforms, pixel_uniforms_binding, "PixelUniforms");
+        put_uniforms(out, dialect, function, outer.uniforms, pixel_uniforms_binding,
+                     "PixelUniforms");
         std::vector<int> slots;
-        for (std::size_t i = 0; i < outer.samplers.size(); ++i) slots.push_back(static_cast<int>(i));
+        for (std::size_t i = 0; i < outer.samplers.size(); ++i)
+            slots.push_back(static_cast<int>(i));
         put_samplers(out, dialect, function, outer.samplers, slots);
         if (!outer.uniforms.empty() || !outer.samplers.empty()) out.line();
     } else {
         for (std::size_t i = 0; i < outer.samplers.size(); ++i) {
-            parameters.push_back(fmt::format("{} {}", sampler_type(function.samplers[i]), outer.samplers[i]));
+            parameters.push_back(
+                fmt::format("{} {}", sampler_type(function.samplers[i]), outer.samplers[i]));
             if (!function.samplers[i].comment.empty())
-                clike::put_comment(out, fmt::format("{}: {}", outer.samplers[i], function.samplers[i].comment));
+                clike::put_comment(
+                    out, fmt::format("{}: {}", outer.samplers[i], function.samplers[i].comment));
         }
         for (std::size_t i = 0; i < outer.uniforms.size(); ++i) {
-            parameters.push_back(uniform_declaration(dialect, function.uniforms[i], outer.uniforms[i]));
+            parameters.push_back(
+                uniform_declaration(dialect, function.uniforms[i], outer.uniforms[i]));
             if (!function.uniforms[i].comment.empty())
-                clike::put_comment(out, fmt::format("{}: {}", outer.uniforms[i], function.uniforms[i].comment));
+                clike::put_comment(
+                    out, fmt::format("{}: {}", outer.uniforms[i], function.uniforms[i].comment));
         }
     }
 
@@ -183,7 +230,9 @@ Result<Artifact> print_function(const Dialect& dialect, const ir::Module& functi
     out.indent();
     scope.open();
     const clike::Ending ending{{}, {}, function.outputs[0].name, {}};
-    if (Status status = clike::print_body(out, function, dialect.function_spelling, outer, ending, scope); !status)
+    if (Status status =
+            clike::print_body(out, function, dialect.function_spelling, outer, ending, scope);
+        !status)
         return status.error();
     out.outdent();
     out.line("}");

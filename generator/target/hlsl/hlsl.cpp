@@ -1,5 +1,6 @@
-// The rows of the HLSL family.  Sources: Microsoft's HLSL reference; what fxc (d3dcompiler_47) accepts was tried:
-// SV_Position and SV_TargetN become position and oCn in vs_3_0 and ps_3_0, `precise` is accepted there too.
+// The rows of the HLSL family.  Sources: Microsoft's HLSL reference; what fxc (d3dcompiler_47)
+// accepts was tried: SV_Position and SV_TargetN become position and oCn in vs_3_0 and ps_3_0,
+// `precise` is accepted there too.
 #include "generator/target/hlsl/hlsl.h"
 
 #include <array>
@@ -78,7 +79,8 @@ constexpr std::array<clike::OpSpelling, n + m> join(const std::array<clike::OpSp
 constexpr std::array ops_5_0 = join(common_ops, reads_5_0);
 constexpr std::array ops_3_0 = join(common_ops, reads_3_0);
 
-constexpr clike::Spelling spelling(std::span<const clike::OpSpelling> ops, std::string_view float_from_bits) {
+constexpr clike::Spelling spelling(std::span<const clike::OpSpelling> ops,
+                                   std::string_view float_from_bits) {
     return {.ops = ops,
             .types = {{{"bool", "bool2", "bool3", "bool4"},
                        {"int", "int2", "int3", "int4"},
@@ -99,7 +101,8 @@ const hlsl::Dialect dialect_5_0 = {
     .pixel_position = "float4 {1} : SV_Position;",
 };
 
-// In ps_3_0 a position input would be the pixel's own (VPOS), and takes no part in linking the stages.
+// In ps_3_0 a position input would be the pixel's own (VPOS), and takes no part in linking the
+// stages.
 const hlsl::Dialect dialect_3_0 = {
     .target = hlsl_3_0,
     .spelling = spelling(ops_3_0, {}),
@@ -120,6 +123,8 @@ Result<Artifact> print_function(const ir::Module& function, Binding binding) {
     return hlsl::print_function(dialect, function, binding);
 }
 
+// loop_trips of hlsl_3_0: `rep` counts to 255, and fxc silently ends a longer loop with an early
+// exit there; one without an exit it refuses from 255 on (X3569).
 constexpr LegalizingPass legalizing[] = {check_limits_pass, replace_scalar_dots_pass};
 
 }  // namespace
@@ -138,7 +143,10 @@ const Target hlsl_3_0 = {
     .name = "hlsl_3_0",
     .description = "HLSL for vs_3_0 and ps_3_0 (Direct3D 9): sampler2D, tex2Dlod, loose uniforms",
     .derived_from = {},
-    .capabilities = {.precise = true, .colour_targets = 4, .interpolants = {10, 40}},
+    .capabilities = {.precise = true,
+                     .colour_targets = 4,
+                     .loop_trips = 254,
+                     .interpolants = {10, 40}},
     .legalize = legalizing,
     .print = print<dialect_3_0>,
     .print_function = print_function<dialect_3_0>,

@@ -1,4 +1,5 @@
-// The HLSL family, for fxc: shader model 5 (textures apart from samplers) and shader model 3 (Direct3D 9).
+// The HLSL family, for fxc: shader model 5 (textures apart from samplers) and shader model 3
+// (Direct3D 9).
 #pragma once
 
 #include "generator/target/target.h"

@@ -1,7 +1,8 @@
 // The shells of HLSL stages and functions around the shared body printer.
 //
-// Both stages declare the same interpolants in the same order, the position last: Direct3D 11 links them by register
-// in order of declaration, Direct3D 9 by semantic, and Vulkan (through glslang) by location in order of declaration.
+// Both stages declare the same interpolants in the same order, the position last: Direct3D 11 links
+// them by register in order of declaration, Direct3D 9 by semantic, and Vulkan (through glslang) by
+// location in order of declaration.
 #include <map>
 
 #include <fmt/format.h>
@@ -17,14 +18,16 @@ namespace {
 using clike::Kind;
 
 std::string type_of(const Dialect& dialect, ir::Type type) {
-    return std::string(clike::type_name(dialect.spelling, static_cast<int>(type.scalar), type.width));
+    return std::string(
+        clike::type_name(dialect.spelling, static_cast<int>(type.scalar), type.width));
 }
 
 std::string fill(std::string_view pattern, int number, std::string_view name, int dimension = 2) {
     return fmt::format(fmt::runtime(pattern), number, name, dimension);
 }
 
-std::string uniform_declaration(const Dialect& dialect, const ir::Uniform& uniform, const std::string& name) {
+std::string uniform_declaration(const Dialect& dialect, const ir::Uniform& uniform,
+                                const std::string& name) {
     const std::string count = uniform.count > 1 ? fmt::format("[{}]", uniform.count) : "";
     return fmt::format("{} {}{}", type_of(dialect, uniform.type), name, count);
 }
@@ -38,7 +41,8 @@ void put_uniforms(TextBuilder& out, const Dialect& dialect, const ir::Module& mo
         out.indent();
     }
     for (std::size_t i = 0; i < names.size(); ++i)
-        clike::put_declaration(out, uniform_declaration(dialect, module.uniforms[i], names[i]) + ";",
+        clike::put_declaration(out,
+                               uniform_declaration(dialect, module.uniforms[i], names[i]) + ";",
                                module.uniforms[i].comment);
     if (!loose) {
         out.outdent();
@@ -51,21 +55,25 @@ void put_samplers(TextBuilder& out, const Dialect& dialect, const ir::Module& mo
                   const std::vector<std::string>& names, const std::vector<int>& slots) {
     for (std::size_t i = 0; i < names.size(); ++i) {
         const ir::Sampler& sampler = module.samplers[i];
-        clike::put_declaration(out, fill(dialect.texture, slots[i], names[i], sampler.dimension), sampler.comment);
-        if (!dialect.sampler_state.empty()) out.line(fill(dialect.sampler_state, slots[i], names[i]));
+        clike::put_declaration(out, fill(dialect.texture, slots[i], names[i], sampler.dimension),
+                               sampler.comment);
+        if (!dialect.sampler_state.empty())
+            out.line(fill(dialect.sampler_state, slots[i], names[i]));
     }
     if (!names.empty()) out.line();
 }
 
-// Vertex attributes by name: what vertex declarations call them, and texture coordinates for all others.
+// Vertex attributes by name: what vertex declarations call them, and texture coordinates for all
+// others.
 class AttributeSemantics {
   public:
     std::string of(const std::string& name) {
         static const std::map<std::string, std::string, std::less<>> known = {
-            {"position", "POSITION"}, {"normal", "NORMAL"},     {"tangent", "TANGENT"},
-            {"bitangent", "BINORMAL"}, {"color", "COLOR0"},     {"colour", "COLOR0"}};
+            {"position", "POSITION"},  {"normal", "NORMAL"}, {"tangent", "TANGENT"},
+            {"bitangent", "BINORMAL"}, {"color", "COLOR0"},  {"colour", "COLOR0"}};
         const auto found = known.find(name);
-        return found == known.end() ? fmt::format("TEXCOORD{}", texture_coordinates_++) : found->second;
+        return found == known.end() ? fmt::format("TEXCOORD{}", texture_coordinates_++)
+                                    : found->second;
     }
 
   private:
@@ -73,7 +81,8 @@ class AttributeSemantics {
 };
 
 // "struct Attributes { ... };" and how the body reads its members.
-std::vector<std::string> put_attributes(TextBuilder& out, const Dialect& dialect, const ir::Module& vertex) {
+std::vector<std::string> put_attributes(TextBuilder& out, const Dialect& dialect,
+                                        const ir::Module& vertex) {
     std::vector<std::string> reads;
     if (vertex.inputs.empty()) return reads;
     clike::NameScope members;
@@ -105,7 +114,8 @@ std::map<std::string, std::string> put_interpolants(TextBuilder& out, const Dial
         if (output.semantic == ir::Semantic::Position) position = &output;
         if (output.semantic != ir::Semantic::Interpolant) continue;
         const std::string name = names[output.name] = members.declare(output.name);
-        body.format("{}{} {} : TEXCOORD{};", precise, type_of(dialect, output.type), name, coordinate++);
+        body.format("{}{} {} : TEXCOORD{};", precise, type_of(dialect, output.type), name,
+                    coordinate++);
     }
     if (position) {
         const std::string name = members.declare(position->name);
@@ -132,9 +142,11 @@ std::map<std::string, std::string> put_interpolants(TextBuilder& out, const Dial
 }
 
 // One target is the return value; several are a struct.
-clike::Ending put_targets(TextBuilder& out, const Dialect& dialect, const ir::Module& pixel, std::string& signature) {
+clike::Ending put_targets(TextBuilder& out, const Dialect& dialect, const ir::Module& pixel,
+                          std::string& signature) {
     if (pixel.outputs.size() == 1) {
-        signature = fmt::format("{} pixel_main({{}}) : SV_Target0 {{{{", type_of(dialect, pixel.outputs[0].type));
+        signature = fmt::format("{} pixel_main({{}}) : SV_Target0 {{{{",
+                                type_of(dialect, pixel.outputs[0].type));
         return {{}, {}, pixel.outputs[0].name, {}};
     }
     clike::NameScope members;
@@ -143,8 +155,8 @@ clike::Ending put_targets(TextBuilder& out, const Dialect& dialect, const ir::Mo
     out.indent();
     for (const ir::Declaration& output : pixel.outputs) {
         const std::string name = members.declare(output.name);
-        out.format("{}{} {} : SV_Target{};", dialect.spelling.precise, type_of(dialect, output.type), name,
-                   ending.stores.size());
+        out.format("{}{} {} : SV_Target{};", dialect.spelling.precise,
+                   type_of(dialect, output.type), name, ending.stores.size());
         ending.stores.push_back("result." + name);
     }
     out.outdent();
@@ -168,9 +180,11 @@ Result<Artifact> print_stage(const Dialect& dialect, const ir::Program& program,
     out.line();
 
     clike::OuterNames outer{{}, interface.of_uniforms(module), interface.of_samplers(module)};
-    put_uniforms(out, dialect, module, outer.uniforms, vertex ? 0 : 1, vertex ? "VertexUniforms" : "PixelUniforms");
+    put_uniforms(out, dialect, module, outer.uniforms, vertex ? 0 : 1,
+                 vertex ? "VertexUniforms" : "PixelUniforms");
     std::vector<int> slots;
-    for (const ir::Sampler& sampler : module.samplers) slots.push_back(clike::sampler_slot(program, sampler.name));
+    for (const ir::Sampler& sampler : module.samplers)
+        slots.push_back(clike::sampler_slot(program, sampler.name));
     put_samplers(out, dialect, module, outer.samplers, slots);
 
     if (vertex) outer.inputs = put_attributes(out, dialect, module);
@@ -180,7 +194,9 @@ Result<Artifact> print_stage(const Dialect& dialect, const ir::Program& program,
     if (vertex) {
         for (const ir::Declaration& output : module.outputs)
             ending.stores.push_back(
-                "result." + members.at((output.semantic == ir::Semantic::Position ? "position of " : "") + output.name));
+                "result." +
+                members.at((output.semantic == ir::Semantic::Position ? "position of " : "") +
+                           output.name));
         ending.before = "Interpolants result;";
         ending.after = "return result;";
     } else {
@@ -192,48 +208,62 @@ Result<Artifact> print_stage(const Dialect& dialect, const ir::Program& program,
         ending = put_targets(out, dialect, module, signature);
     }
 
-    const std::string parameter = vertex ? (module.inputs.empty() ? "" : "Attributes vertex")
-                                         : (members.empty() && module.inputs.empty() ? "" : "Interpolants pixel");
+    const std::string parameter =
+        vertex ? (module.inputs.empty() ? "" : "Attributes vertex")
+               : (members.empty() && module.inputs.empty() ? "" : "Interpolants pixel");
     out.line(fmt::format(fmt::runtime(signature), parameter));
     out.indent();
     scope.open();
-    if (Status status = clike::print_body(out, module, dialect.spelling, outer, ending, scope); !status)
+    if (Status status = clike::print_body(out, module, dialect.spelling, outer, ending, scope);
+        !status)
         return status.error();
     out.outdent();
     out.line("}");
-    return Artifact{out.take(), vertex ? "vertex_main" : "pixel_main", stage, vertex ? ".vert.hlsl" : ".frag.hlsl", {}};
+    return Artifact{out.take(),
+                    vertex ? "vertex_main" : "pixel_main",
+                    stage,
+                    vertex ? ".vert.hlsl" : ".frag.hlsl",
+                    {}};
 }
 
-Result<Artifact> print_function(const Dialect& dialect, const ir::Module& function, Binding binding) {
+Result<Artifact> print_function(const Dialect& dialect, const ir::Module& function,
+                                Binding binding) {
     clike::NameScope scope;
     clike::OuterNames outer;
     const std::string name = scope.declare(function.name, "find");
-    for (const ir::Declaration& input : function.inputs) outer.inputs.push_back(scope.declare(input.name));
+    for (const ir::Declaration& input : function.inputs)
+        outer.inputs.push_back(scope.declare(input.name));
     for (const ir::Sampler& sampler : function.samplers)
         outer.samplers.push_back(clike::declare_sampler(scope, sampler.name));
-    for (const ir::Uniform& uniform : function.uniforms) outer.uniforms.push_back(scope.declare(uniform.name));
+    for (const ir::Uniform& uniform : function.uniforms)
+        outer.uniforms.push_back(scope.declare(uniform.name));
 
     TextBuilder out;
     clike::put_comment(out, fmt::format("{}: a function for {}", name, dialect.target.name));
     std::vector<std::string> parameters;
     for (std::size_t i = 0; i < outer.inputs.size(); ++i)
-        parameters.push_back(fmt::format("{} {}", type_of(dialect, function.inputs[i].type), outer.inputs[i]));
+        parameters.push_back(
+            fmt::format("{} {}", type_of(dialect, function.inputs[i].type), outer.inputs[i]));
     if (binding == Binding::Globals) {
         put_uniforms(out, dialect, function, outer.uniforms, 1, "PixelUniforms");
         std::vector<int> slots;
-        for (std::size_t i = 0; i < outer.samplers.size(); ++i) slots.push_back(static_cast<int>(i));
+        for (std::size_t i = 0; i < outer.samplers.size(); ++i)
+            slots.push_back(static_cast<int>(i));
         put_samplers(out, dialect, function, outer.samplers, slots);
     } else {
         for (std::size_t i = 0; i < outer.samplers.size(); ++i) {
             const ir::Sampler& sampler = function.samplers[i];
-            parameters.push_back(fill(dialect.texture_parameter, 0, outer.samplers[i], sampler.dimension));
+            parameters.push_back(
+                fill(dialect.texture_parameter, 0, outer.samplers[i], sampler.dimension));
             if (!sampler.comment.empty())
                 clike::put_comment(out, fmt::format("{}: {}", outer.samplers[i], sampler.comment));
         }
         for (std::size_t i = 0; i < outer.uniforms.size(); ++i) {
-            parameters.push_back(uniform_declaration(dialect, function.uniforms[i], outer.uniforms[i]));
+            parameters.push_back(
+                uniform_declaration(dialect, function.uniforms[i], outer.uniforms[i]));
             if (!function.uniforms[i].comment.empty())
-                clike::put_comment(out, fmt::format("{}: {}", outer.uniforms[i], function.uniforms[i].comment));
+                clike::put_comment(
+                    out, fmt::format("{}: {}", outer.uniforms[i], function.uniforms[i].comment));
         }
     }
 
@@ -242,7 +272,8 @@ Result<Artifact> print_function(const Dialect& dialect, const ir::Module& functi
     out.indent();
     scope.open();
     const clike::Ending ending{{}, {}, function.outputs[0].name, {}};
-    if (Status status = clike::print_body(out, function, dialect.spelling, outer, ending, scope); !status)
+    if (Status status = clike::print_body(out, function, dialect.spelling, outer, ending, scope);
+        !status)
         return status.error();
     out.outdent();
     out.line("}");

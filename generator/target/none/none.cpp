@@ -1,5 +1,6 @@
-// Prints the optimised IR itself.  A target of one's own starts as a copy of this folder: give it a name, list in
-// `legalize` the passes that remove what its language cannot say, print what is left, and add it to all_targets.cpp.
+// Prints the optimised IR itself.  A target of one's own starts as a copy of this folder: give it a
+// name, list in `legalize` the passes that remove what its language cannot say, print what is left,
+// and add it to all_targets.cpp.
 #include "generator/target/none/none.h"
 
 #include "generator/ir/print.h"
@@ -12,7 +13,11 @@ constexpr LegalizingPass legalizing[] = {check_limits_pass};
 
 Result<Artifact> print_stage(const ir::Program& program, ir::Stage stage) {
     const ir::Module& module = stage == ir::Stage::Vertex ? program.vertex : program.pixel;
-    return Artifact{ir::print(module), module.name, stage, stage == ir::Stage::Vertex ? ".vert.ir" : ".frag.ir", {}};
+    return Artifact{ir::print(module),
+                    module.name,
+                    stage,
+                    stage == ir::Stage::Vertex ? ".vert.ir" : ".frag.ir",
+                    {}};
 }
 
 }  // namespace

@@ -26,7 +26,9 @@ std::vector<std::string> tokens_of(const std::string& text) {
     std::vector<std::string> tokens;
     for (std::size_t i = 0; i < text.size();) {
         const char c = text[i];
-        const auto word = [](char w) { return std::isalnum(static_cast<unsigned char>(w)) || w == '_'; };
+        const auto word = [](char w) {
+            return std::isalnum(static_cast<unsigned char>(w)) || w == '_';
+        };
         if (std::isspace(static_cast<unsigned char>(c))) {
             ++i;
         } else if (text.compare(i, 2, "//") == 0) {
@@ -34,7 +36,8 @@ std::vector<std::string> tokens_of(const std::string& text) {
         } else if (std::isdigit(static_cast<unsigned char>(c))) {
             std::size_t end = i;
             while (word(text[end]) || text[end] == '.' ||
-                   ((text[end] == '-' || text[end] == '+') && text[end - 1] == 'e' && text[i + 1] != 'x'))
+                   ((text[end] == '-' || text[end] == '+') && text[end - 1] == 'e' &&
+                    text[i + 1] != 'x'))
                 ++end;
             tokens.push_back(text.substr(i, end - i));
             i = end;
@@ -45,7 +48,8 @@ std::vector<std::string> tokens_of(const std::string& text) {
             i = end;
         } else {
             const std::string two = text.substr(i, 2);
-            static const std::set<std::string> doubled = {"<=", ">=", "==", "!=", "&&", "||", "++", "--"};
+            static const std::set<std::string> doubled = {
+                "<=", ">=", "==", "!=", "&&", "||", "++", "--"};
             tokens.push_back(doubled.count(two) ? two : text.substr(i, 1));
             i += tokens.back().size();
         }
@@ -55,24 +59,26 @@ std::vector<std::string> tokens_of(const std::string& text) {
 }
 
 const std::map<std::string, Type> types = {
-    {"bool", {Scalar::Bool, 1}},  {"bvec2", {Scalar::Bool, 2}},  {"bvec3", {Scalar::Bool, 3}},
-    {"bvec4", {Scalar::Bool, 4}}, {"int", {Scalar::Int, 1}},     {"ivec2", {Scalar::Int, 2}},
-    {"ivec3", {Scalar::Int, 3}},  {"ivec4", {Scalar::Int, 4}},   {"float", {Scalar::Float, 1}},
-    {"vec2", {Scalar::Float, 2}}, {"vec3", {Scalar::Float, 3}},  {"vec4", {Scalar::Float, 4}}};
+    {"bool", {Scalar::Bool, 1}},  {"bvec2", {Scalar::Bool, 2}}, {"bvec3", {Scalar::Bool, 3}},
+    {"bvec4", {Scalar::Bool, 4}}, {"int", {Scalar::Int, 1}},    {"ivec2", {Scalar::Int, 2}},
+    {"ivec3", {Scalar::Int, 3}},  {"ivec4", {Scalar::Int, 4}},  {"float", {Scalar::Float, 1}},
+    {"vec2", {Scalar::Float, 2}}, {"vec3", {Scalar::Float, 3}}, {"vec4", {Scalar::Float, 4}}};
 
 const std::map<std::string, Op> functions = {
-    {"abs", Op::Abs},   {"min", Op::Min},   {"max", Op::Max},     {"floor", Op::Floor},       {"fract", Op::Frac},
-    {"sqrt", Op::Sqrt}, {"exp2", Op::Exp2}, {"log2", Op::Log2},   {"inversesqrt", Op::Rsqrt}, {"pow", Op::Pow},
-    {"sin", Op::Sin},   {"cos", Op::Cos},   {"mix", Op::Lerp},    {"dot", Op::Dot},           {"cross", Op::Cross}};
+    {"abs", Op::Abs},           {"min", Op::Min},   {"max", Op::Max},    {"floor", Op::Floor},
+    {"fract", Op::Frac},        {"sqrt", Op::Sqrt}, {"exp2", Op::Exp2},  {"log2", Op::Log2},
+    {"inversesqrt", Op::Rsqrt}, {"pow", Op::Pow},   {"sin", Op::Sin},    {"cos", Op::Cos},
+    {"mix", Op::Lerp},          {"dot", Op::Dot},   {"cross", Op::Cross}};
 
 struct Binary {
     Op op;
     int level;
 };
 const std::map<std::string, Binary> binaries = {
-    {"||", {Op::Or, 1}},           {"&&", {Op::And, 2}},  {"==", {Op::Equal, 3}},     {"!=", {Op::NotEqual, 3}},
-    {"<", {Op::Less, 4}},          {">", {Op::Greater, 4}}, {"<=", {Op::LessEqual, 4}}, {">=", {Op::GreaterEqual, 4}},
-    {"+", {Op::Add, 5}},           {"-", {Op::Sub, 5}},   {"*", {Op::Mul, 6}},        {"/", {Op::Div, 6}}};
+    {"||", {Op::Or, 1}},        {"&&", {Op::And, 2}},          {"==", {Op::Equal, 3}},
+    {"!=", {Op::NotEqual, 3}},  {"<", {Op::Less, 4}},          {">", {Op::Greater, 4}},
+    {"<=", {Op::LessEqual, 4}}, {">=", {Op::GreaterEqual, 4}}, {"+", {Op::Add, 5}},
+    {"-", {Op::Sub, 5}},        {"*", {Op::Mul, 6}},           {"/", {Op::Div, 6}}};
 
 class Interpreter {
   public:
@@ -131,7 +137,8 @@ class Interpreter {
         expect("=");
         const TextValue value = expression(0);
         TextValue& stored = variable(name);
-        if (stored.type != value.type) throw Mistake{fmt::format("{} gets a value of another type", name)};
+        if (stored.type != value.type)
+            throw Mistake{fmt::format("{} gets a value of another type", name)};
         if (runs) stored = value;
         expect(";");
         return false;
@@ -143,9 +150,11 @@ class Interpreter {
         TextValue value{type, {0x12345678, 0x12345678, 0x12345678, 0x12345678}};
         if (accept("=")) {
             value = expression(0);
-            if (value.type != type) throw Mistake{fmt::format("{} starts with a value of another type", name)};
+            if (value.type != type)
+                throw Mistake{fmt::format("{} starts with a value of another type", name)};
         }
-        if (!scopes_.back().emplace(name, value).second) throw Mistake{fmt::format("{} is declared twice", name)};
+        if (!scopes_.back().emplace(name, value).second)
+            throw Mistake{fmt::format("{} is declared twice", name)};
         static_cast<void>(runs);
         expect(";");
     }
@@ -183,7 +192,8 @@ class Interpreter {
         } while (!broken && ++i < count);
     }
 
-    TextValue apply(Op op, std::vector<TextValue> operands, int result_width = 0, const ir::Instruction& extra = {}) {
+    TextValue apply(Op op, std::vector<TextValue> operands, int result_width = 0,
+                    const ir::Instruction& extra = {}) {
         // A scalar beside a vector stands for each component.
         if (op != Op::Select && op != Op::Compose && op != Op::Dot) {
             int width = 1;
@@ -243,7 +253,8 @@ class Interpreter {
         ir::Instruction instruction;
         for (std::size_t i = 0; i < letters.size(); ++i) {
             instruction.lanes[i] = static_cast<std::uint8_t>(std::string("xyzw").find(letters[i]));
-            if (instruction.lanes[i] >= value.type.width) throw Mistake{"a component that the vector does not have"};
+            if (instruction.lanes[i] >= value.type.width)
+                throw Mistake{"a component that the vector does not have"};
         }
         return apply(Op::Swizzle, {value}, static_cast<int>(letters.size()), instruction);
     }
@@ -285,10 +296,12 @@ class Interpreter {
         const std::vector<TextValue> values = arguments();
         if (name == "uintBitsToFloat") return {ir::float1, {values[0].bits[0]}};
         if (name == "clamp") {
-            if (values[1].bits[0] != 0 || values[2].bits[0] != ir::float_bits(1.0f)) throw Mistake{"an odd clamp"};
+            if (values[1].bits[0] != 0 || values[2].bits[0] != ir::float_bits(1.0f))
+                throw Mistake{"an odd clamp"};
             return apply(Op::Saturate, {values[0]});
         }
-        if (const auto type = types.find(name); type != types.end()) return construct(type->second, values);
+        if (const auto type = types.find(name); type != types.end())
+            return construct(type->second, values);
         const auto function = functions.find(name);
         if (function == functions.end()) throw Mistake{fmt::format("{} is not a function", name)};
         if (static_cast<int>(values.size()) != ir::info(function->second).operand_count)
@@ -297,12 +310,13 @@ class Interpreter {
     }
 
     TextValue construct(Type type, const std::vector<TextValue>& values) {
-        if (values.size() == 1 && values[0].type.scalar == Scalar::Int && type.scalar == Scalar::Float &&
-            values[0].type.width == type.width)
+        if (values.size() == 1 && values[0].type.scalar == Scalar::Int &&
+            type.scalar == Scalar::Float && values[0].type.width == type.width)
             return apply(Op::ToFloat, values);
         if (values.size() == 1 && values[0].type == Type{type.scalar, 1}) {
             TextValue repeated{type, {}};
-            for (int i = 0; i < type.width; ++i) repeated.bits[static_cast<std::size_t>(i)] = values[0].bits[0];
+            for (int i = 0; i < type.width; ++i)
+                repeated.bits[static_cast<std::size_t>(i)] = values[0].bits[0];
             return repeated;
         }
         const TextValue composed = apply(Op::Compose, values);
@@ -317,7 +331,8 @@ class Interpreter {
 
 }  // namespace
 
-Result<std::map<std::string, TextValue>> run_main(const std::string& text, std::map<std::string, TextValue> globals) {
+Result<std::map<std::string, TextValue>> run_main(const std::string& text,
+                                                  std::map<std::string, TextValue> globals) {
     try {
         return Interpreter(text, std::move(globals)).run();
     } catch (const Mistake& mistake) {

@@ -1,5 +1,5 @@
-// In the languages with `precise`, every sum, difference and product of the binary must be marked NoContraction, also
-// those that only feed a condition or the coordinate of a texture read.
+// In the languages with `precise`, every sum, difference and product of the binary must be marked
+// NoContraction, also those that only feed a condition or the coordinate of a texture read.
 #include <set>
 #include <sstream>
 
@@ -21,7 +21,8 @@ std::vector<std::string> contractible(const std::string& disassembly, int& arith
         std::string first, second, third;
         words >> first >> second >> third;
         if (first == "OpDecorate" && third == "NoContraction") marked.insert(second);
-        const bool counts = third == "OpFAdd" || third == "OpFSub" || third == "OpFMul" || third == "OpVectorTimesScalar";
+        const bool counts = third == "OpFAdd" || third == "OpFSub" || third == "OpFMul" ||
+                            third == "OpVectorTimesScalar";
         if (!counts) continue;
         ++arithmetic;
         if (!marked.count(first)) lines.push_back(line);
@@ -37,9 +38,11 @@ void expect_precise(const ir::Program& program) {
             const Artifact artifact = testing::emitted(program, stage, target.name);
             const auto words = check::to_spirv(testing::source_of(artifact, target.language));
             ASSERT_TRUE(words.ok()) << to_string(words.error()) << artifact.text;
-            const std::vector<std::string> lines = contractible(*check::disassemble(*words), arithmetic);
-            ASSERT_TRUE(lines.empty()) << target.name << ": " << lines.size() << " operations, first" << lines[0] << "\n"
-                                       << artifact.text;
+            const std::vector<std::string> lines =
+                contractible(*check::disassemble(*words), arithmetic);
+            ASSERT_TRUE(lines.empty())
+                << target.name << ": " << lines.size() << " operations, first" << lines[0] << "\n"
+                << artifact.text;
         }
     }
     EXPECT_GT(arithmetic, 0);

@@ -1,4 +1,5 @@
-// Programs around a module, and the languages that witnesses read: shared by the tests of this folder.
+// Programs around a module, and the languages that witnesses read: shared by the tests of this
+// folder.
 #pragma once
 
 #include <string>
@@ -27,10 +28,14 @@ inline constexpr TextTarget text_targets[] = {{"glsl_450", check::Language::Glsl
                                               {"hlsl_5_0", check::Language::Hlsl5},
                                               {"hlsl_3_0", check::Language::Hlsl3}};
 
+// Reads a module whose values are called by words; one that begins with "_" is to have no name.
 inline ir::Module parsed(std::string_view text) {
     Result<ir::Module> module = ir::parse(text, "test");
     EXPECT_TRUE(module.ok()) << (module.ok() ? "" : to_string(module.error())) << "\n" << text;
-    return module.ok() ? std::move(*module) : ir::Module{};
+    if (!module.ok()) return {};
+    for (ir::Value& value : module->values)
+        if (value.name.starts_with("_")) value.name.clear();
+    return std::move(*module);
 }
 
 // The pixel stage, and a vertex stage that gives what it reads, all zero.
@@ -47,9 +52,10 @@ inline ir::Program program_of(ir::Module pixel) {
     for (const ir::Declaration& input : pixel.inputs) {
         program.vertex.outputs.push_back(input);
         const ir::ValueId x = builder.swizzle(position, "x");
-        outputs.push_back(input.type.width == 1
-                              ? x
-                              : builder.swizzle(x, std::string(static_cast<std::size_t>(input.type.width), 'x')));
+        outputs.push_back(
+            input.type.width == 1
+                ? x
+                : builder.swizzle(x, std::string(static_cast<std::size_t>(input.type.width), 'x')));
     }
     builder.finish(outputs);
     program.pixel = std::move(pixel);
@@ -57,21 +63,24 @@ inline ir::Program program_of(ir::Module pixel) {
 }
 
 inline check::Source source_of(const Artifact& artifact, check::Language language) {
-    return {language, artifact.stage == ir::Stage::Vertex ? check::Stage::Vertex : check::Stage::Pixel, artifact.text,
-            artifact.entry, "test"};
+    return {language,
+            artifact.stage == ir::Stage::Vertex ? check::Stage::Vertex : check::Stage::Pixel,
+            artifact.text, artifact.entry, "test"};
 }
 
 // The text of a stage, or the failure of the test.
 inline Artifact emitted(const ir::Program& program, ir::Stage stage, std::string_view target) {
     Result<Artifact> artifact = emit(program, stage, *find_target(target));
-    EXPECT_TRUE(artifact.ok()) << target << ": " << (artifact.ok() ? "" : to_string(artifact.error()));
+    EXPECT_TRUE(artifact.ok()) << target << ": "
+                               << (artifact.ok() ? "" : to_string(artifact.error()));
     return artifact.ok() ? std::move(*artifact) : Artifact{};
 }
 
 // The lines of main() or of an entry point, without the braces around them and their indentation.
 inline std::string body_of(const std::string& text) {
     std::string body;
-    std::size_t at = text.find('\n', text.rfind(") {\n}") == std::string::npos ? text.find("void main() {") : 0);
+    std::size_t at =
+        text.find('\n', text.rfind(") {\n}") == std::string::npos ? text.find("void main() {") : 0);
     for (++at; at < text.size() && text[at] != '}';) {
         const std::size_t end = text.find('\n', at);
         body += text.substr(std::min(at + 4, end), end - std::min(at + 4, end)) + "\n";

@@ -1,5 +1,5 @@
-// Properties of the emitted text of random modules: it computes what the module computes, every witness accepts it in
-// every language, and it is the same each time.
+// Properties of the emitted text of random modules: it computes what the module computes, every
+// witness accepts it in every language, and it is the same each time.
 #include <bit>
 
 #include <gtest/gtest.h>
@@ -18,19 +18,24 @@ using ir::testing::random_module;
 using ir::testing::RandomModuleOptions;
 
 // A pixel module with plain names; schedules that ask for unrolling, and consent to round
-// differently, are dropped, so that it can be printed as it is and computes the same after the passes.
+// differently, are dropped, so that it can be printed as it is and computes the same after the
+// passes.
 ir::Module plain_module(std::uint64_t seed, RandomModuleOptions options) {
     options.odd_text = false;
     options.unused_values = false;
     ir::Module module;
     do module = random_module(seed++, options);
     while (module.stage != ir::Stage::Pixel);
-    for (std::size_t i = 0; i < module.inputs.size(); ++i) module.inputs[i].name = "in" + std::to_string(i);
-    for (std::size_t i = 0; i < module.outputs.size(); ++i) module.outputs[i].name = "to" + std::to_string(i);
-    for (std::size_t i = 0; i < module.uniforms.size(); ++i) module.uniforms[i].name = "un" + std::to_string(i);
+    for (std::size_t i = 0; i < module.inputs.size(); ++i)
+        module.inputs[i].name = "in" + std::to_string(i);
+    for (std::size_t i = 0; i < module.outputs.size(); ++i)
+        module.outputs[i].name = "to" + std::to_string(i);
+    for (std::size_t i = 0; i < module.uniforms.size(); ++i)
+        module.uniforms[i].name = "un" + std::to_string(i);
     const auto keep_loops = [](auto&& self, ir::Region& region) -> void {
         for (ir::Instruction& instruction : region.body) {
-            if (instruction.loop.form == ir::LoopForm::Unrolled) instruction.loop.form = ir::LoopForm::Rolled;
+            if (instruction.loop.form == ir::LoopForm::Unrolled)
+                instruction.loop.form = ir::LoopForm::Rolled;
             instruction.loop.closed_form = false;
             for (ir::Region& inner : instruction.regions) self(self, inner);
         }
@@ -45,7 +50,8 @@ testing::TextValue text_value(ir::Type type, const ir::Environment::Vector& vect
         const double component = vector[static_cast<std::size_t>(i)];
         std::uint32_t& bits = value.bits[static_cast<std::size_t>(i)];
         if (type.scalar == ir::Scalar::Float) bits = ir::float_bits(static_cast<float>(component));
-        if (type.scalar == ir::Scalar::Int) bits = static_cast<std::uint32_t>(static_cast<std::int32_t>(component));
+        if (type.scalar == ir::Scalar::Int)
+            bits = static_cast<std::uint32_t>(static_cast<std::int32_t>(component));
         if (type.scalar == ir::Scalar::Bool) bits = component != 0;
     }
     return value;
@@ -56,10 +62,12 @@ void expect_same(const ir::Module& module, const std::string& text, std::uint64_
     const ir::Environment& environment = random.environment;
     std::map<std::string, testing::TextValue> globals;
     for (std::size_t i = 0; i < module.inputs.size(); ++i)
-        globals["in" + std::to_string(i)] = text_value(module.inputs[i].type, environment.inputs[i]);
+        globals["in" + std::to_string(i)] =
+            text_value(module.inputs[i].type, environment.inputs[i]);
     for (std::size_t i = 0; i < module.uniforms.size(); ++i)
         for (std::size_t j = 0; j < environment.uniforms[i].size(); ++j) {
-            const std::string element = module.uniforms[i].count > 1 ? "[" + std::to_string(j) + "]" : "";
+            const std::string element =
+                module.uniforms[i].count > 1 ? "[" + std::to_string(j) + "]" : "";
             globals["un" + std::to_string(i) + element] =
                 text_value(module.uniforms[i].type, environment.uniforms[i][j]);
         }
@@ -77,14 +85,15 @@ void expect_same(const ir::Module& module, const std::string& text, std::uint64_
             const float got = std::bit_cast<float>(actual.bits[component]);
             if (wanted != wanted && got != got) continue;
             ASSERT_EQ(ir::float_bits(wanted), actual.bits[component])
-                << "seed " << seed << " output " << i << " component " << j << ": expected " << wanted << ", actual "
-                << got << "\n" << text << ir::print(module);
+                << "seed " << seed << " output " << i << " component " << j << ": expected "
+                << wanted << ", actual " << got << "\n"
+                << text << ir::print(module);
         }
     }
 }
 
-// Loops and ifs that carry a few floats and mix them up: nearly every value is carried, yielded and read late, which
-// is what decides whether values may share a variable.
+// Loops and ifs that carry a few floats and mix them up: nearly every value is carried, yielded and
+// read late, which is what decides whether values may share a variable.
 class Shuffles {
   public:
     explicit Shuffles(std::uint64_t seed) : random_(seed), builder_(module_) {}
@@ -92,14 +101,16 @@ class Shuffles {
     ir::Module make() {
         module_.name = "shuffles";
         for (int i = 0; i < 3; ++i) {
-            module_.inputs.push_back({"in" + std::to_string(i), ir::float1, ir::Semantic::Interpolant});
+            module_.inputs.push_back(
+                {"in" + std::to_string(i), ir::float1, ir::Semantic::Interpolant});
             visible_.push_back(builder_.input(i));
         }
         for (int i = random_.between(1, 3); i > 0; --i) nest(0);
         std::vector<ir::ValueId> outputs;
         for (int i = 0; i < 4; ++i) {
             module_.outputs.push_back({"to" + std::to_string(i), ir::float1, ir::Semantic::Target});
-            outputs.push_back(visible_[visible_.size() - 1 - static_cast<std::size_t>(i) % visible_.size()]);
+            outputs.push_back(
+                visible_[visible_.size() - 1 - static_cast<std::size_t>(i) % visible_.size()]);
         }
         builder_.finish(outputs);
         return std::move(module_);
@@ -109,7 +120,8 @@ class Shuffles {
     // Recent values are likelier.
     ir::ValueId pick() {
         const int count = static_cast<int>(visible_.size());
-        const int back = random_.chance(70) ? random_.below(std::min(count, 5)) : random_.below(count);
+        const int back =
+            random_.chance(70) ? random_.below(std::min(count, 5)) : random_.below(count);
         return visible_[static_cast<std::size_t>(count - 1 - back)];
     }
 
@@ -125,8 +137,10 @@ class Shuffles {
     }
 
     void nest(int depth) {
-        if (depth == 0 || random_.chance(60)) loop(depth);
-        else branch(depth);
+        if (depth == 0 || random_.chance(60))
+            loop(depth);
+        else
+            branch(depth);
     }
 
     void work(int depth) {
@@ -140,8 +154,8 @@ class Shuffles {
     void loop(int depth) {
         const int count = random_.between(1, 4);
         const std::size_t outside = visible_.size();
-        const auto scope = builder_.begin_loop({"loop", random_.between(1, 4), ir::LoopForm::Unspecified, false},
-                                               picks(count));
+        const auto scope = builder_.begin_loop(
+            {"loop", random_.between(1, 4), ir::LoopForm::Unspecified, false}, picks(count));
         for (ir::ValueId carried : scope.carried) keep(carried);
         work(depth);
         if (random_.chance(50)) {
@@ -180,9 +194,11 @@ TEST(RandomText, KeepsCarriedValuesApart) {
     for (std::uint64_t seed = 1; seed <= 1500; ++seed) {
         const ir::Module module = Shuffles(seed).make();
         ASSERT_TRUE(ir::verify(module).ok()) << to_string(ir::verify(module).error());
-        const auto artifact = find_target("glsl_330")->print(testing::program_of(module), ir::Stage::Pixel);
+        const auto artifact =
+            find_target("glsl_330")->print(testing::program_of(module), ir::Stage::Pixel);
         ASSERT_TRUE(artifact.ok()) << to_string(artifact.error());
-        for (std::uint64_t run = 0; run < 3; ++run) expect_same(module, artifact->text, seed * 10 + run);
+        for (std::uint64_t run = 0; run < 3; ++run)
+            expect_same(module, artifact->text, seed * 10 + run);
         if (HasFatalFailure()) return;
     }
 }
@@ -193,9 +209,11 @@ TEST(RandomText, ComputesWhatTheModuleComputesBeforeAnyPass) {
     for (std::uint64_t seed = 1; seed <= 400; ++seed) {
         options.instructions = 10 + static_cast<int>(seed % 60);
         const ir::Module module = plain_module(seed * 1000, options);
-        const auto artifact = find_target("glsl_330")->print(testing::program_of(module), ir::Stage::Pixel);
+        const auto artifact =
+            find_target("glsl_330")->print(testing::program_of(module), ir::Stage::Pixel);
         ASSERT_TRUE(artifact.ok()) << to_string(artifact.error());
-        for (std::uint64_t run = 0; run < 3; ++run) expect_same(module, artifact->text, seed * 10 + run);
+        for (std::uint64_t run = 0; run < 3; ++run)
+            expect_same(module, artifact->text, seed * 10 + run);
         if (HasFatalFailure()) return;
     }
 }
@@ -206,8 +224,10 @@ TEST(RandomText, ComputesWhatTheModuleComputesAfterThePasses) {
     for (std::uint64_t seed = 1; seed <= 150; ++seed) {
         options.instructions = 20 + static_cast<int>(seed % 60);
         const ir::Module module = plain_module(seed * 77777, options);
-        const Artifact artifact = testing::emitted(testing::program_of(module), ir::Stage::Pixel, "glsl_330");
-        for (std::uint64_t run = 0; run < 3; ++run) expect_same(module, artifact.text, seed * 10 + run);
+        const Artifact artifact =
+            testing::emitted(testing::program_of(module), ir::Stage::Pixel, "glsl_330");
+        for (std::uint64_t run = 0; run < 3; ++run)
+            expect_same(module, artifact.text, seed * 10 + run);
         if (HasFatalFailure()) return;
     }
 }
@@ -218,7 +238,8 @@ TEST(RandomText, EveryWitnessAcceptsEveryLanguage) {
         options.special_constants = seed % 2 == 0;
         const ir::Program program = testing::program_of(plain_module(seed * 1000, options));
         for (const testing::TextTarget& target : testing::text_targets) {
-            const Result<Artifact> artifact = emit(program, ir::Stage::Pixel, *find_target(target.name));
+            const Result<Artifact> artifact =
+                emit(program, ir::Stage::Pixel, *find_target(target.name));
             if (!artifact.ok()) {
                 // Shader model 3 has no way to write an infinity.
                 EXPECT_EQ(target.name, "hlsl_3_0") << to_string(artifact.error());
@@ -226,9 +247,11 @@ TEST(RandomText, EveryWitnessAcceptsEveryLanguage) {
                 continue;
             }
             const auto words = check::to_spirv(testing::source_of(*artifact, target.language));
-            EXPECT_TRUE(words.ok()) << "seed " << seed << " " << target.name << ": " << to_string(words.error()) << "\n"
-                                    << artifact->text;
-            EXPECT_EQ(artifact->text, testing::emitted(program, ir::Stage::Pixel, target.name).text);
+            EXPECT_TRUE(words.ok())
+                << "seed " << seed << " " << target.name << ": " << to_string(words.error()) << "\n"
+                << artifact->text;
+            EXPECT_EQ(artifact->text,
+                      testing::emitted(program, ir::Stage::Pixel, target.name).text);
             if (::testing::Test::HasFailure()) return;
         }
     }

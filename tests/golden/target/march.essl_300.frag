@@ -1,0 +1,37 @@
+#version 300 es
+
+// march: pixel stage for essl_300
+// March the view ray down until a sample rises above it.
+// Settings: taps = 8
+
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+
+in vec2 uv;
+in vec3 view;
+
+uniform float scale;  // depth of the relief in texture units
+uniform sampler2D height_map;  // height in red: 1 is the polygon, 0 the deepest
+
+layout(location = 0) out vec4 colour;
+
+void main() {
+    vec2 reach = view.xy / view.z * scale;
+
+    // Walk down the ray until a sample of the height profile rises above it.
+    float above = textureLod(height_map, uv, 0.0).x - 1.0;
+    float t = 0.0;
+    float below = above;
+    for (int i = 0; i < 8; ++i) {
+        if (below >= 0.0) break;
+        t = float(i + 1) * 0.125;
+        vec2 at = uv - reach * t;
+        above = below;
+        below = textureLod(height_map, at, 0.0).x - (1.0 - t);
+    }
+
+    // Show how deep the ray went.
+    float depth = t - 0.125 * (below / (below - above));
+    colour = vec4(vec3(depth), 1.0);
+}
