@@ -11,8 +11,8 @@ struct Sample {
     measure::Measurement measurement;
 };
 
-// Two maps, the given views and lights, three rows.  The p95 of a case is 1 + row / 10 + the
-// tangent-free measure of grazing (90 - elevation) / 30 + azimuth / 1000.
+// Two maps, the given views and lights, three rows.  The p95 of a case is
+// 1 + row / 10 + (90 - elevation) / 30 + azimuth / 1000.
 inline Sample sample(std::vector<measure::Direction> views = {{90, 0}, {30, 20}},
                      std::vector<measure::Direction> lights = {{45, 135}}) {
     Sample made;
