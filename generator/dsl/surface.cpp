@@ -15,8 +15,9 @@ Relief make_relief(const Surface& surface) {
     const bool packed = surface.relief->packed == 1;
     const sampler2D map = packed ? sampler2D("normal_map", "tangent-space normal in rgb, height in alpha")
                                  : sampler2D("height_map", "height in red: 1 is the polygon, 0 the deepest");
-    return {map, packed, uniform<1>("scale", "depth of the relief in texture units"),
-            uniform<2>("map_size", "size of the height map in texels"), float1(surface.relief->level.value())};
+    const float2 map_size = uniform<2>("map_size", "size of the height map in texels");
+    const float1 scale = uniform<1>("scale", "depth of the relief in texture units");
+    return {map, packed, scale, map_size, float1(surface.relief->level.value())};
 }
 
 Status check_techniques(const Surface& surface) {

@@ -1,12 +1,10 @@
 // The list one can read aloud, and its repetition until nothing changes.
 #include "generator/passes/pipeline.h"
 
-#include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
 
-#include "generator/ir/parse.h"
 #include "generator/ir/verify.h"
 #include "generator/passes/close_inductions.h"
 #include "generator/passes/eliminate_common_subexpressions.h"
@@ -32,13 +30,7 @@ class Run {
         if (error_) return;
         pass(module_);
         if (options_.after_each) options_.after_each(name, module_);
-        if (nesting(module_.body) > max_nesting) {
-            error_ = input_error(
-                "nesting",
-                fmt::format("'{}' nests branches deeper than {} when its loops with early "
-                            "exits are unrolled; keep the loops or flatten the branches",
-                            module_.name, max_nesting));
-        } else if (options_.verify_each) {
+        if (options_.verify_each) {
             if (const Status status = verify(module_); !status)
                 error_ = internal_error("pass-broke-module",
                                         fmt::format("{}: {}", name, status.error().message));
@@ -48,14 +40,6 @@ class Run {
     const std::optional<Diagnostic>& error() const { return error_; }
 
   private:
-    static int nesting(const Region& region) {
-        int deepest = 0;
-        for (const Instruction& instruction : region.body)
-            for (const Region& inner : instruction.regions)
-                deepest = std::max(deepest, 1 + nesting(inner));
-        return deepest;
-    }
-
     Module& module_;
     const PipelineOptions& options_;
     std::optional<Diagnostic> error_;
@@ -63,14 +47,14 @@ class Run {
 
 void run_once(Run& run, const PipelineOptions& options, std::vector<std::string>& notes) {
     const Loops loops = options.unroll_all ? Loops::All : Loops::AsScheduled;
-    const EarlyExit early_exit = options.flatten_all ? EarlyExit::Select : EarlyExit::Branch;
     run("fold_constants", fold_constants);
     run("eliminate_common_subexpressions", eliminate_common_subexpressions);
     run("hoist_loop_invariants", hoist_loop_invariants);
     run("close_inductions", [&](Module& module) {
         for (std::string& note : close_inductions(module)) notes.push_back(std::move(note));
     });
-    run("unroll_loops", [&](Module& module) { unroll_loops(module, loops, early_exit); });
+    // Early exits as selects, the form of the papers: branches would nest as deep as the loop is long.
+    run("unroll_loops", [&](Module& module) { unroll_loops(module, loops, EarlyExit::Select); });
     run("fold_constants", fold_constants);
     if (options.flatten_all)
         run("flatten_branches", [](Module& module) { flatten_branches(module); });

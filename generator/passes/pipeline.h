@@ -23,8 +23,7 @@ struct PipelineOptions {
 
 // Makes the module small and quick, and obeys its schedule.  The same module always gives the same
 // result, and optimizing that again changes nothing.  Returns what a person should know: one
-// sentence for each rewrite that needed consent.  Refuses to unroll a loop with an early exit into
-// branches that nest deeper than ir::max_nesting [nesting].
+// sentence for each rewrite that needed consent. to unroll a loop with an early exit into
 Result<std::vector<std::string>> optimize(ir::Module& module, const PipelineOptions& options);
 
 // Both stages, and what moves between them.

@@ -217,8 +217,12 @@ void remove_unused_declarations(Module& module) {
     std::vector<bool> inputs(module.inputs.size()), uniforms(module.uniforms.size());
     std::vector<bool> samplers(module.samplers.size()), files(module.files.size()),
         steps(module.steps.size());
-    for (std::size_t i = 0; i < inputs.size(); ++i)
-        inputs[i] = module.inputs[i].semantic == Semantic::Parameter;
+    // A function keeps its signature, so that one search takes the place of another.
+    if (module.stage == Stage::Function) {
+        inputs.assign(inputs.size(), true);
+        uniforms.assign(uniforms.size(), true);
+        samplers.assign(samplers.size(), true);
+    }
     for_each_instruction(module.body, [&](const Instruction& instruction) {
         if (instruction.op == Op::Input) mark(inputs, instruction.slot);
         if (instruction.op == Op::Uniform) mark(uniforms, instruction.slot);

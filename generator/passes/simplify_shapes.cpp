@@ -72,12 +72,13 @@ bool simplify_swizzle(const Module& module, const Definitions& definitions, Inst
     return true;
 }
 
-// compose(compose(a, b), c) = compose(a, b, c)
-bool compose_of_compose(const Definitions& definitions, Instruction& compose) {
+// compose(compose(a, b), c) = compose(a, b, c), unless the inner one has a name: then it is a value that people know,
+// and taking it apart would show it twice.
+bool compose_of_compose(const Module& module, const Definitions& definitions, Instruction& compose) {
     std::vector<ValueId> parts;
     for (ValueId operand : compose.operands) {
         const Definition& inner = definitions[operand];
-        if (inner.op == Op::Compose)
+        if (inner.op == Op::Compose && module.value(operand).name.empty())
             parts.insert(parts.end(), inner.operand_span().begin(), inner.operand_span().end());
         else
             parts.push_back(operand);
@@ -88,7 +89,7 @@ bool compose_of_compose(const Definitions& definitions, Instruction& compose) {
 }
 
 bool simplify_compose(const Module& module, const Definitions& definitions, Instruction& compose) {
-    if (compose_of_compose(definitions, compose)) return true;
+    if (compose_of_compose(module, definitions, compose)) return true;
     // The lanes of one vector, each operand being that vector or a swizzle of it.
     std::vector<Lane> lanes;
     for (ValueId operand : compose.operands) {

@@ -29,7 +29,8 @@ class Reader {
     explicit Reader(const SpirvWords& words) : compiler_(words) {}
 
     Reflection read() {
-        const spirv_cross::ShaderResources resources = compiler_.get_shader_resources();
+        const spirv_cross::ShaderResources resources =
+            compiler_.get_shader_resources(compiler_.get_active_interface_variables());
         Reflection result;
         for (const auto& block : resources.uniform_buffers) {
             result.blocks.push_back(read_block(block));

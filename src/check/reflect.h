@@ -64,7 +64,7 @@ struct Reflection {
     std::optional<Block> push_constants;
 };
 
-// All that the module declares, used or not.  The module is validated first ("spirv-invalid").
+// What the entry point uses; what is only declared needs nothing from outside, and its place may be anything.  The module is validated first ("spirv-invalid").
 // Error "spirv-unreadable": SPIRV-Cross gives up.
 Result<Reflection> reflect(const SpirvWords& words);
 

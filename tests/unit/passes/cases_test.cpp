@@ -24,6 +24,7 @@
 #include "generator/passes/fold_constants.h"
 #include "generator/passes/hoist_loop_invariants.h"
 #include "generator/passes/hoist_to_vertex.h"
+#include "generator/passes/lower_first_hit.h"
 #include "generator/passes/pipeline.h"
 #include "generator/passes/remove_dead_code.h"
 #include "generator/passes/remove_unused_interpolants.h"
@@ -69,6 +70,15 @@ const std::map<std::string, std::function<Notes(Program&)>>& known_passes() {
          [](Program& program) {
              remove_unused_interpolants(program);
              return Notes{};
+         }},
+        {"lower_first_hit",
+         [](Program& program) {
+             Notes notes;
+             for (const FirstHit& hit :
+                  lower_first_hit(program.pixel, FirstHitForm::PackedRefetch))
+                 notes.push_back(hit.loop + ": " +
+                                 (hit.refusal.empty() ? "greatest key, then refetch" : hit.refusal));
+             return notes;
          }},
         {"optimize", optimized({.verify_each = true})},
         {"optimize unrolled flat",
