@@ -93,6 +93,11 @@ std::optional<File> file_named(Profile profile, std::string_view letters) {
     return std::nullopt;
 }
 
+bool can_declare(File file) {
+    return file == File::Sampler || file == File::Input || file == File::Texture ||
+           file == File::Output || file == File::Position || file == File::Face;
+}
+
 bool has_usage(Profile profile, File file) {
     if (is_pixel(profile)) return profile == Profile::ps_3_0 && file == File::Input;
     return file == File::Input || file == File::Output;

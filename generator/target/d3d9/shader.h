@@ -265,5 +265,7 @@ std::optional<File> file_named(Profile profile, std::string_view letters);
 inline constexpr int last_register = 2047;
 // Whether its declaration carries a usage: vertex inputs, vs_3_0 outputs, ps_3_0 inputs.
 bool has_usage(Profile profile, File file);
+// Whether dcl may name it: samplers, inputs, vs_3_0 outputs, vPos and vFace.
+bool can_declare(File file);
 
 }  // namespace intaglio::d3d9
