@@ -23,6 +23,7 @@ void add_map(CLI::App& command, MapOptions& options) {
     command.add_option("--normal", options.normal, "Normal map, PNG; baked from the heights if not given");
     command.add_option("--colour,--color", options.colour, "Colour map, PNG; a shade of the heights if not given");
     command.add_option("--map-size", options.map_size, "Size of a procedural map")->capture_default_str();
+    command.add_option("--seed", options.seed, "Of a procedural map")->capture_default_str();
     command.add_option("--scale", options.scale, "Depth of the relief in texture units")->capture_default_str();
     command.add_option("--filtering", options.filtering, "float (exact) or native (as the file's precision)")->capture_default_str();
 }

@@ -54,6 +54,7 @@ struct MapOptions {
     std::string height, normal, colour;  // files; empty: made from the heights
     std::string maker;                   // a procedural map in place of files
     std::string map_size = "256x256";    // of a procedural map
+    std::uint32_t seed = 1;              // of a procedural map
     double scale = 0.08;
     std::string filtering = "float";     // float, native
 };

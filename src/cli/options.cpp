@@ -63,7 +63,7 @@ Result<measure::MapSet> map_set_of(const MapOptions& options) {
     }
     const Result<Size> size = parse_size(options.map_size);
     if (!size) return size.error();
-    return measure::make_map_set(options.maker, size->width, size->height, options.scale);
+    return measure::make_map_set(options.maker, size->width, size->height, options.scale, options.seed);
 }
 
 Status write_product(const std::string& output, std::string_view bytes, bool binary) {

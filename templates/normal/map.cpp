@@ -12,7 +12,7 @@ class Map : public NormalSource {
     float3 normal(const Relief&, const Hit& hit, const Footprint& footprint) const override {
         const sampler2D map("normal_map", "tangent-space normal in rgb, height in alpha");
         const float4 texel = map.sample_grad(hit.uv, footprint.ddx_uv, footprint.ddy_uv);
-        return normalize(texel.xyz() * 2.0f - 1.0f);
+        return normalize(let("unpacked", texel.xyz() * 2.0f - 1.0f));
     }
 };
 

@@ -17,7 +17,7 @@ class Phong : public Shading {
         const float1 gloss = uniform<1>("gloss", "strength of the highlight");
 
         const float1 diffuse = let("diffuse", saturate(dot(fragment.normal, fragment.light)));
-        const float3 halfway = let("halfway", normalize(fragment.light + fragment.view));
+        const float3 halfway = let("halfway", normalize(let("between", fragment.light + fragment.view)));
         // pow(0, y) is 0 or NaN by device: the least base is a power that rounds to nothing on screen.
         const float1 highlight = let("highlight", pow(max(dot(fragment.normal, halfway), 1e-4f), shininess.value()));
         // No highlight on the side that faces away.

@@ -18,10 +18,13 @@ class TangentSpace : public VertexWork {
     Vertex transform() const override {
         const std::string_view world = "world", world_comment = "object to world: three rows";
         Step step("vertex", "View and light vectors in the vertex's tangent frame.");
-        const float3 position = let("world_position", transform_rows(world, float4(input<3>("position"), 1.0f), world_comment));
-        const float3 normal = let("world_normal", normalize(transform_rows(world, float4(input<3>("normal"), 0.0f), world_comment)));
+        const auto to_world = [&](std::string_view name, float4 v) {
+            return let(name, transform_rows(world, let(std::string(name) + "_in", v), world_comment));
+        };
+        const float3 position = to_world("world_position", float4(input<3>("position"), 1.0f));
+        const float3 normal = let("world_normal", normalize(to_world("normal_direction", float4(input<3>("normal"), 0.0f))));
         const float4 tangent_and_side = input<4>("tangent");
-        const float3 tangent = let("world_tangent", normalize(transform_rows(world, float4(tangent_and_side.xyz(), 0.0f), world_comment)));
+        const float3 tangent = let("world_tangent", normalize(to_world("tangent_direction", float4(tangent_and_side.xyz(), 0.0f))));
         const float3 bitangent = let("world_bitangent", cross(normal, tangent) * tangent_and_side.w());
 
         const auto to_tangent_space = [&](float3 v) { return float3(dot(tangent, v), dot(bitangent, v), dot(normal, v)); };
@@ -31,7 +34,7 @@ class TangentSpace : public VertexWork {
         const float3 world_to_eye = let("world_to_eye", direction_to(eye));
         const float3 world_to_light = let("world_to_light", direction_to(light));
 
-        const float4 place(position, 1.0f);
+        const float4 place = let("place", float4(position, 1.0f));
         const auto row = [](int i) { return uniform_row("view_projection", 4, i, "world to clip space: four rows"); };
         return {float4(dot(row(0), place), dot(row(1), place), dot(row(2), place), dot(row(3), place)),
                 input<2>("uv"), to_tangent_space(world_to_eye), to_tangent_space(world_to_light)};

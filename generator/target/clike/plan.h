@@ -65,6 +65,8 @@ class Plan {
     friend class VariablePlanner;
     friend class PrecisePlanner;
 
+    void mark_precise();
+
     const ir::Module& module_;
     Uses uses_;
     std::vector<Form> forms_;
