@@ -135,7 +135,9 @@ Result<ir::Program> record_function(const Surface& surface, FunctionPart part, c
     ir::Program program;
     program.name = surface.name;
     program.description = surface.description;
-    program.settings = surface.settings();
+    const Technique& technique = part == FunctionPart::Search ? static_cast<const Technique&>(*surface.search) : *surface.shadow;
+    for (const Technique* used : {static_cast<const Technique*>(surface.relief.get()), &technique})
+        for (const KnobBase* knob : used->knobs()) program.settings.push_back(knob->setting());
     ir::Module& module = program.pixel;
     module.stage = ir::Stage::Function;
     module.name = part == FunctionPart::Search ? "find" : "visibility";

@@ -137,7 +137,8 @@ std::optional<ConstantBits> FirstHitLoop::compute_at(ValueId value, int iteratio
     return evaluate_op(computed, types, operands, module_.type(value).width);
 }
 
-// True if the carried value's initial value is its function at -1.
+// True if the carried value's initial value is its function at -1.  What it takes over must be its
+// own function everywhere.
 bool FirstHitLoop::is_initially(std::size_t k) const {
     return matches(initial_value(k), next_value(k), -1);
 }
@@ -146,8 +147,7 @@ bool FirstHitLoop::matches(ValueId outside, ValueId inside, int iteration) const
     if (!is_inside(inside)) return outside == inside;
     if (const auto bits = constant_at(inside, iteration))
         return matches_constant(outside, inside, *bits);
-    if (const auto k = parameter(inside))
-        return valid_from_.at(inside) == 0 && matches(outside, next_value(*k), iteration - 1);
+    if (const auto k = parameter(inside)) return matches(outside, next_value(*k), iteration - 1);
     if (is_index(inside)) return false;
     const Definition& a = definitions_[outside];
     const Instruction& b = instruction(inside);

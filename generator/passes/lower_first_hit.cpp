@@ -189,13 +189,12 @@ class Lowering {
     // What is at most zero, or NaN, where the condition does not hold in iteration i: a is below b
     // just where a - b is below zero, but for denormals.
     std::optional<ValueId> gap_of(ValueId condition, int i) {
-        if (!search_.is_inside(condition)) return std::nullopt;
+        if (!search_.is_inside(condition) || search_.parameter(condition)) return std::nullopt;
         const Instruction& compare = search_.instruction(condition);
         std::vector<ValueId> sides = compare.operands;
         if (compare.op == Op::Or) {
-            const auto a = gap_of(sides[0], i), b = gap_of(sides[1], i);
-            if (!a || !b) return std::nullopt;
-            return op(Op::Max, {*a, *b});
+            const auto gap = gap_of(sides[0], i);  // neither holds, so that one's will do
+            return gap ? gap : gap_of(sides[1], i);
         }
         if (compare.op == Op::Less || compare.op == Op::LessEqual)
             std::swap(sides[0], sides[1]);
@@ -362,7 +361,7 @@ class Lowerer {
             if (lowering.run())
                 hit.form = FirstHitForm::PackedRefetch;
             else
-                hit.refusal = "what it finds cannot be computed from the place of the hit";
+                hit.refusal = "what it finds is no function of where it finds it";
         }
         found_.push_back(hit);
         if (hit.form == FirstHitForm::Chain) return false;

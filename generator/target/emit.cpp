@@ -59,20 +59,21 @@ Result<Artifact> emit(const ir::Program& program, ir::Stage stage, const Target&
     return artifact;
 }
 
-Result<Artifact> emit_function(const ir::Module& function, const Target& target, Binding binding,
+Result<Artifact> emit_function(const ir::Program& program, const Target& target, Binding binding,
                                const EmitOptions& options) {
     if (!target.capabilities.functions || !target.print_function)
         return input_error("target-function",
                            fmt::format("{} has no text to paste a function into", target.name));
+    const ir::Module& function = program.pixel;
     if (Status status = ir::verify(function); !status) return status.error();
     if (function.stage != ir::Stage::Function || function.outputs.size() != 1)
         return input_error("target-function",
                            fmt::format("{} is not a function with one result", function.name));
-    ir::Module legal = function;
+    ir::Program legal = program;
     Result<std::vector<std::string>> notes =
-        passes::optimize(legal, pipeline_options(target, options));
+        passes::optimize(legal.pixel, pipeline_options(target, options));
     if (!notes) return notes.error();
-    if (Status status = legalize(legal, target, options); !status) return status.error();
+    if (Status status = legalize(legal.pixel, target, options); !status) return status.error();
     Result<Artifact> artifact = target.print_function(legal, binding);
     if (artifact) artifact->notes.insert(artifact->notes.begin(), notes->begin(), notes->end());
     return artifact;

@@ -58,7 +58,7 @@ struct Target {
     Capabilities capabilities;
     std::span<const LegalizingPass> legalize;
     Result<Artifact> (*print)(const ir::Program& program, ir::Stage stage) = nullptr;
-    Result<Artifact> (*print_function)(const ir::Module& function, Binding binding) = nullptr;
+    Result<Artifact> (*print_function)(const ir::Program& program, Binding binding) = nullptr;
 };
 
 // Every target, in the order of the documentation.
@@ -79,10 +79,10 @@ struct EmitOptions {
 Result<Artifact> emit(const ir::Program& program, ir::Stage stage, const Target& target,
                       const EmitOptions& options = {});
 
-// Prints a module of Stage::Function as one function to paste into a shader: its inputs are the
+// Prints the pixel module of a program, which is of Stage::Function, as one function to paste into a shader: its inputs are the
 // parameters, its one output the return value.  Errors as for emit, and "target-function" where the
 // target has no text to paste.
-Result<Artifact> emit_function(const ir::Module& function, const Target& target, Binding binding,
+Result<Artifact> emit_function(const ir::Program& program, const Target& target, Binding binding,
                                const EmitOptions& options = {});
 
 // An error about what a target cannot do, pointing at the line that asked for it.

@@ -93,7 +93,7 @@ Result<Artifact> make_function(const dsl::Catalogue& catalogue, const VariantReq
     if (!surface) return surface.error();
     const Result<ir::Program> program = dsl::record_function(*surface, part, record_options(request));
     if (!program) return program.error();
-    return emit_function(program->pixel, **target, binding, options);
+    return emit_function(*program, **target, binding, options);
 }
 
 std::optional<check::Language> language_of(const Target& target) {

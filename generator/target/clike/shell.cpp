@@ -82,8 +82,10 @@ NameScope InterfaceNames::scope_of(const ir::Program& program, ir::Stage stage) 
 
 void put_header(TextBuilder& out, const ir::Program& program, ir::Stage stage,
                 const Target& target) {
-    put_comment(out, fmt::format("{}: {} stage for {}", program.name,
-                                 stage == ir::Stage::Vertex ? "vertex" : "pixel", target.name));
+    const std::string_view what = stage == ir::Stage::Vertex  ? "vertex stage"
+                                  : stage == ir::Stage::Pixel ? "pixel stage"
+                                                              : "a function";
+    put_comment(out, fmt::format("{}: {} for {}", program.name, what, target.name));
     std::string_view description = program.description;
     while (!description.empty()) {
         const std::size_t end = std::min(description.find('\n'), description.size());

@@ -112,8 +112,8 @@ Result<Artifact> print(const ir::Program& program, ir::Stage stage) {
 }
 
 template <const glsl::Dialect& dialect>
-Result<Artifact> print_function(const ir::Module& function, Binding binding) {
-    return glsl::print_function(dialect, function, binding);
+Result<Artifact> print_function(const ir::Program& program, Binding binding) {
+    return glsl::print_function(dialect, program, binding);
 }
 
 constexpr LegalizingPass legalizing[] = {check_limits_pass, replace_scalar_dots_pass};

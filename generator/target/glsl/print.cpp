@@ -182,8 +182,9 @@ Result<Artifact> print_stage(const Dialect& dialect, const ir::Program& program,
     return Artifact{out.take(), "main", stage, vertex ? ".vert" : ".frag", {}};
 }
 
-Result<Artifact> print_function(const Dialect& dialect, const ir::Module& function,
+Result<Artifact> print_function(const Dialect& dialect, const ir::Program& program,
                                 Binding binding) {
+    const ir::Module& function = program.pixel;
     clike::NameScope scope;
     clike::OuterNames outer;
     const std::string name = scope.declare(function.name, "find");
@@ -195,7 +196,7 @@ Result<Artifact> print_function(const Dialect& dialect, const ir::Module& functi
         outer.uniforms.push_back(scope.declare(uniform.name));
 
     TextBuilder out;
-    clike::put_comment(out, fmt::format("{}: a function for {}", name, dialect.target.name));
+    clike::put_header(out, program, ir::Stage::Function, dialect.target);
     std::vector<std::string> parameters;
     for (std::size_t i = 0; i < outer.inputs.size(); ++i)
         parameters.push_back(

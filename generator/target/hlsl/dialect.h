@@ -22,7 +22,7 @@ struct Dialect {
 };
 
 Result<Artifact> print_stage(const Dialect& dialect, const ir::Program& program, ir::Stage stage);
-Result<Artifact> print_function(const Dialect& dialect, const ir::Module& function,
+Result<Artifact> print_function(const Dialect& dialect, const ir::Program& program,
                                 Binding binding);
 
 }  // namespace intaglio::hlsl

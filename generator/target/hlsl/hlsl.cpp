@@ -119,8 +119,8 @@ Result<Artifact> print(const ir::Program& program, ir::Stage stage) {
 }
 
 template <const hlsl::Dialect& dialect>
-Result<Artifact> print_function(const ir::Module& function, Binding binding) {
-    return hlsl::print_function(dialect, function, binding);
+Result<Artifact> print_function(const ir::Program& program, Binding binding) {
+    return hlsl::print_function(dialect, program, binding);
 }
 
 // loop_trips of hlsl_3_0: `rep` counts to 255, and fxc silently ends a longer loop with an early

@@ -344,11 +344,18 @@ std::string host(std::string_view target, Binding binding, const std::string& fu
            "), 1.0); }\n";
 }
 
+ir::Program as_program(const ir::Module& function) {
+    ir::Program program;
+    program.name = function.name;
+    program.pixel = function;
+    return program;
+}
+
 TEST(Functions, ArePastedIntoAForeignShader) {
     const ir::Module function = testing::parsed(function_text);
     for (const testing::TextTarget& target : testing::text_targets)
         for (Binding binding : {Binding::Parameters, Binding::Globals}) {
-            const auto artifact = emit_function(function, *find_target(target.name), binding);
+            const auto artifact = emit_function(as_program(function), *find_target(target.name), binding);
             ASSERT_TRUE(artifact.ok()) << to_string(artifact.error());
             EXPECT_EQ(artifact->entry, "find");
             const std::string shader = host(target.name, binding, artifact->text);
@@ -364,7 +371,7 @@ TEST(Functions, ArePastedIntoAForeignShader) {
 TEST(Functions, NameTheirParametersInOrder) {
     const ir::Module function = testing::parsed(function_text);
     const auto text = [&](std::string_view target, Binding binding) {
-        return emit_function(function, *find_target(target), binding)->text;
+        return emit_function(as_program(function), *find_target(target), binding)->text;
     };
     EXPECT_THAT(
         text("glsl_330", Binding::Parameters),
@@ -382,7 +389,7 @@ TEST(Functions, NameTheirParametersInOrder) {
 TEST(Functions, AreRefusedWhereThereIsNoTextToPasteInto) {
     for (std::string_view name : {"spirv", "msl", "none"}) {
         const auto artifact =
-            emit_function(testing::parsed(function_text), *find_target(name), Binding::Globals);
+            emit_function(as_program(testing::parsed(function_text)), *find_target(name), Binding::Globals);
         ASSERT_FALSE(artifact.ok());
         EXPECT_EQ(artifact.error().code, "target-function");
     }
