@@ -14,6 +14,7 @@
 #include "generator/passes/flatten_branches.h"
 #include "generator/passes/fold_constants.h"
 #include "generator/passes/hoist_loop_invariants.h"
+#include "generator/passes/lower_first_hit.h"
 #include "generator/passes/pipeline.h"
 #include "generator/passes/remove_dead_code.h"
 #include "generator/passes/rewrite.h"
@@ -60,6 +61,9 @@ std::vector<Property> properties() {
         {"flatten_branches", [](Module& module) { flatten_branches(module); }, true, true},
         {"flatten_branches outside loops",
          [](Module& module) { flatten_branches(module, Branches::OutsideLoops); }, true, true},
+        {"lower_first_hit",
+         [](Module& module) { lower_first_hit(module, FirstHitForm::PackedRefetch); }, false, true,
+         false},
         {"count_texture_reads", count_texture_reads, true, false, false},
         {"optimize", [](Module& module) { optimize_or_fail(module, {}); }, false},
         {"optimize flat",
