@@ -132,7 +132,7 @@ struct Source {
     int index = 0;
     Swizzle swizzle = identity_swizzle;
     Modifier modifier = Modifier::None;
-    std::optional<Relative> relative;
+    std::optional<Relative> relative = {};
     friend bool operator==(const Source&, const Source&) = default;
 };
 
@@ -143,7 +143,7 @@ struct Destination {
     bool saturate = false;             // _sat
     bool partial_precision = false;    // _pp
     bool centroid = false;             // _centroid, on declarations
-    std::optional<Relative> relative;  // o[aL + n], vs_3_0 only
+    std::optional<Relative> relative = {};  // o[aL + n], vs_3_0 only
     friend bool operator==(const Destination&, const Destination&) = default;
 };
 
@@ -160,9 +160,9 @@ enum class Comparison : std::uint8_t {
 struct Instruction {
     Opcode op = Opcode::Nop;
     Comparison comparison = Comparison::None;  // IfComp, BreakComp, SetP
-    std::optional<Destination> destination;
+    std::optional<Destination> destination = {};
     std::vector<Source> sources;
-    std::optional<Source> predicate;  // (p0.x) or (!p0)
+    std::optional<Source> predicate = {};  // (p0.x) or (!p0)
     ir::Origin origin;                // where it comes from; not in the bytecode, not compared
     friend bool operator==(const Instruction& a, const Instruction& b) {
         return a.op == b.op && a.comparison == b.comparison && a.destination == b.destination &&

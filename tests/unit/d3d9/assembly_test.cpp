@@ -108,9 +108,9 @@ struct Refusal {
     std::string message;
 };
 
-class Refused : public testing::TestWithParam<Refusal> {};
+class RefusedText : public testing::TestWithParam<Refusal> {};
 
-TEST_P(Refused, WithASentenceAndAPlace) {
+TEST_P(RefusedText, WithASentenceAndAPlace) {
     const auto result = parse(GetParam().text, "bad.asm");
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().code, "d3d9-parse");
@@ -120,7 +120,7 @@ TEST_P(Refused, WithASentenceAndAPlace) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Text, Refused,
+    Text, RefusedText,
     testing::Values(Refusal{"", 1, 1, "no version"},
                     Refusal{"\nps_1_1\n", 2, 1, "expected a version"},
                     Refusal{"ps_2_0\nfoo r0\n", 2, 1, "no instruction \"foo\""},
