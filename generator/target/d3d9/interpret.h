@@ -84,9 +84,9 @@ class Interpreter {
 // register after the other, each as many as the constant has columns (booleans: one).  What the
 // table does not name is ignored.  Errors: "missing-uniform", "missing-texture", "bad-uniform" (a
 // wrong number of values).
-Result<Environment> bind(const Shader& shader,
-                         const std::map<std::string, std::vector<float>>& uniforms,
-                         const std::map<std::string, const ir::Texture*>& textures);
+Result<Environment> environment_of(const Shader& shader,
+                                   const std::map<std::string, std::vector<float>>& uniforms,
+                                   const std::map<std::string, const ir::Texture*>& textures);
 
 // Sets the lanes of input registers that carry this usage.  Pixel shaders of model 2 take
 // texcoord n in t#n and color n in v#n, the others what their declarations say.

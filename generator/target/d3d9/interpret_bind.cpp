@@ -58,9 +58,9 @@ bool is_lane_of(const Declaration& declaration, std::size_t lane) {
 
 }  // namespace
 
-Result<Environment> bind(const Shader& shader,
-                         const std::map<std::string, std::vector<float>>& uniforms,
-                         const std::map<std::string, const ir::Texture*>& textures) {
+Result<Environment> environment_of(const Shader& shader,
+                                   const std::map<std::string, std::vector<float>>& uniforms,
+                                   const std::map<std::string, const ir::Texture*>& textures) {
     Environment environment;
     for (const Constant& constant : shader.constants) {
         if (constant.index < 0 || constant.count < 0 || constant.columns < 0 ||

@@ -185,7 +185,7 @@ TEST(Opcodes, InputsByUsage) {
     EXPECT_THAT(execution.colours[2], SameNumbers(Vector{111, 222, -37, 48}));
 }
 
-TEST(Bind, PutsNamesIntoTheirRegisters) {
+TEST(EnvironmentOf, PutsNamesIntoTheirRegisters) {
     Shader shader = parsed("ps_3_0\nmov r0, c2\nadd r0, r0, c3\nmov oC0, r0\n");
     shader.constants = {{"flag", Constant::Set::Bool, 1, 1, 1, 1},
                         {"steps", Constant::Set::Int4, 0, 1, 3, 1},
@@ -194,7 +194,7 @@ TEST(Bind, PutsNamesIntoTheirRegisters) {
     const ir::Texture texture;
     std::map<std::string, std::vector<float>> values = {
         {"flag", {1}}, {"steps", {7, 0, 1}}, {"pair", {1, 2, 3, 4, 5, 6}}, {"other", {1}}};
-    const auto environment = bind(shader, values, {{"map", &texture}});
+    const auto environment = environment_of(shader, values, {{"map", &texture}});
     ASSERT_TRUE(environment.ok()) << to_string(environment.error());
     EXPECT_THAT(prepared(shader).run(*environment, {}, Arithmetic::Fp32).colours[0],
                 SameNumbers(Vector{5, 7, 9, 0}));
@@ -202,13 +202,13 @@ TEST(Bind, PutsNamesIntoTheirRegisters) {
     EXPECT_TRUE(environment->booleans.at(1));
     EXPECT_EQ(environment->samplers.at(1), &texture);
 
-    EXPECT_EQ(bind(shader, values, {}).error().code, "missing-texture");
+    EXPECT_EQ(environment_of(shader, values, {}).error().code, "missing-texture");
     values["pair"].pop_back();
-    EXPECT_EQ(bind(shader, values, {{"map", &texture}}).error().code, "bad-uniform");
+    EXPECT_EQ(environment_of(shader, values, {{"map", &texture}}).error().code, "bad-uniform");
     values.erase("pair");
-    EXPECT_EQ(bind(shader, values, {{"map", &texture}}).error().code, "missing-uniform");
+    EXPECT_EQ(environment_of(shader, values, {{"map", &texture}}).error().code, "missing-uniform");
     shader.constants[2].index = 255;
-    EXPECT_EQ(bind(shader, values, {{"map", &texture}}).error().code, "d3d9-malformed");
+    EXPECT_EQ(environment_of(shader, values, {{"map", &texture}}).error().code, "d3d9-malformed");
 }
 
 }  // namespace
