@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "generator/passes/any_hit.h"
 #include "generator/passes/first_hit_loop.h"
 #include "generator/passes/rewrite.h"
 
@@ -54,6 +55,31 @@ class Lowering {
         }
         restore(conditions_only);
         return best && emit(keys[*best]);
+    }
+
+    // As run(), for a search that is only asked whether it hits; results() are then those after the
+    // last iteration, and the truths' values come in order.
+    std::vector<ValueId> run_any_hit(const AnyHit& any) {
+        std::vector<ValueId> gaps;
+        for (int i = 0; i <= search_.trips(); ++i)
+            gaps.push_back(op(Op::Sub, {at(any.hit.greater, i), at(any.hit.lesser, i)}));
+        if (any.stop) {
+            const ValueId no_hit = constant(ConstantBits{float_bits(-1.0f), 0, 0, 0});
+            std::vector<ValueId> stops;
+            for (int i = 0; i < search_.trips(); ++i) stops.push_back(at(*any.stop, i));
+            for (std::size_t i = 0; i < stops.size(); ++i)
+                gaps[i + 1] = select(stops[i], no_hit, gaps[i + 1]);
+        }
+        const ValueId most = greatest(std::move(gaps)), zero = constant(ConstantBits{});
+        std::vector<ValueId> truths;
+        for (const Truth& truth : any.truths) {
+            const Op hit = any.hit.strict ? Op::Greater : Op::GreaterEqual;
+            const Op miss = any.hit.strict ? Op::LessEqual : Op::Less;
+            truths.push_back(op(truth.of_hit ? hit : miss, {most, zero}));
+        }
+        for (std::size_t k = 0; k < result_count(); ++k)
+            results_.push_back(at(search_.next_value(k), search_.trips() - 1));
+        return truths;
     }
 
     std::vector<Instruction>& code() { return code_; }
@@ -341,6 +367,9 @@ class Lowerer {
 
   private:
     void visit(Region& region) {
+        for (std::size_t i = 0; i < region.body.size(); ++i)
+            if (const auto any = find_any_hit(module_, region, i))
+                any_hits_[region.body[i].results.front()] = *any;
         rebuild(region, [&](Instruction instruction, std::vector<Instruction>& body) {
             substitution_.apply(instruction.operands);
             for (Region& inner : instruction.regions) visit(inner);
@@ -351,17 +380,23 @@ class Lowerer {
     }
 
     bool lower(const Instruction& loop, std::vector<Instruction>& body) {
-        FirstHit hit{loop.loop.name, loop.loop.trip_count, FirstHitForm::Chain, {}};
+        FirstHit hit{loop.loop.name, loop.loop.trip_count, false, FirstHitForm::Chain, {}};
         // An inner loop that was lowered used values in other numbers than counted at the start.
         uses_.resize(module_.values.size(), 1);
         const FirstHitLoop search(module_, definitions_, loop);
-        Lowering lowering(module_, search, uses_);
         hit.refusal = search.refusal();
-        if (hit.refusal.empty() && choose_(hit) == FirstHitForm::PackedRefetch) {
-            if (lowering.run())
-                hit.form = FirstHitForm::PackedRefetch;
-            else
-                hit.refusal = "what it finds is no function of where it finds it";
+        const auto any = hit.refusal.empty() ? any_hit_of(search) : std::nullopt;
+        hit.only_whether = any.has_value();
+        Lowering lowering(module_, search, uses_);
+        if (hit.refusal.empty()) hit.form = choose_(hit);
+        if (hit.form == FirstHitForm::AnyHit && any) {
+            const std::vector<ValueId> truths = lowering.run_any_hit(*any);
+            for (std::size_t i = 0; i < truths.size(); ++i)
+                substitution_.replace(any->truths[i].value, truths[i]);
+        } else if (hit.form != FirstHitForm::Chain) {
+            const bool found = lowering.run();
+            hit.form = found ? FirstHitForm::PackedRefetch : FirstHitForm::Chain;
+            if (!found) hit.refusal = "what it finds is no function of where it finds it";
         }
         found_.push_back(hit);
         if (hit.form == FirstHitForm::Chain) return false;
@@ -375,11 +410,24 @@ class Lowerer {
         return true;
     }
 
+    std::optional<AnyHit> any_hit_of(const FirstHitLoop& search) const {
+        if (search.loop().results.empty()) return std::nullopt;
+        const auto found = any_hits_.find(search.loop().results.front());
+        if (found == any_hits_.end()) return std::nullopt;
+        AnyHit any = found->second;
+        any.hit.greater = substitution_(any.hit.greater);
+        any.hit.lesser = substitution_(any.hit.lesser);
+        if (any.stop) any.stop = substitution_(*any.stop);
+        if (any.stop && !stays(module_, definitions_, search, *any.stop)) return std::nullopt;
+        return any;
+    }
+
     Module& module_;
     const ChooseFirstHit& choose_;
     Substitution substitution_;
     Definitions definitions_;
     std::vector<int> uses_;
+    std::map<ValueId, AnyHit> any_hits_;  // by the loop's first result
     std::vector<FirstHit> found_;
 };
 

@@ -18,12 +18,14 @@ namespace intaglio::passes {
 enum class FirstHitForm {
     Chain,          // the loop stays as it is: unroll_loops makes selects of it
     PackedRefetch,  // greatest key, then everything again at the hit
+    AnyHit,         // greatest gap, where one only asks whether there is a hit; else PackedRefetch
 };
 
 // A loop, and what becomes of it.
 struct FirstHit {
     std::string loop;
     int trip_count = 0;
+    bool only_whether = false;  // it can be AnyHit: a shadow ray
     FirstHitForm form = FirstHitForm::Chain;
     std::string refusal;  // why it can only be a chain: "it is left from more than one place"
 };
@@ -31,7 +33,7 @@ struct FirstHit {
 // The form that a loop which can have it shall have.
 using ChooseFirstHit = std::function<FirstHitForm(const FirstHit&)>;
 
-// Rewrites the loops that are a search and for which `choose` says PackedRefetch; says of each
+// Rewrites the loops that are a search and for which `choose` does not say Chain; says of each
 // loop, inner ones first, what became of it.  A search has one break_if and no inner branch or
 // loop, and what it carries is memoryless: a function of the index and of values from outside, or
 // such a value of the iteration before.
@@ -41,6 +43,12 @@ using ChooseFirstHit = std::function<FirstHitForm(const FirstHit&)>;
 // reads that only results need run once.  Keys are values that the loop computes anyway or count
 // down from the number of iterations; every result is recovered from them by ops that were tried on
 // all of the loop's iterations, so that its bits are the loop's.
+//
+// AnyHit is for a search whose results only serve to compare again what its condition compares, and
+// whose condition may be `hit or stop` with a stop that stays, such as a rising ray above the
+// relief. It needs no texture read but those of the samples compared, and no key.  It compares
+// differences to zero, as Direct3D 9 compares anyway: its truth can be another where two infinities
+// or denormals are compared, or NaN in the iteration in which the loop ends.
 //
 // For packing four to a register, what is alike stands together: first all conditions, then the
 // selects of four iterations after four, each `select(condition, key, gap)` with the gap whose sign

@@ -51,6 +51,18 @@ const std::map<std::string, std::function<Notes(Program&)>>& known_passes() {
             return notes ? *notes : Notes{to_string(notes.error())};
         };
     };
+    const auto first_hit = [](FirstHitForm form) {
+        return [form](Program& program) {
+            Notes notes;
+            for (const FirstHit& hit : lower_first_hit(program.pixel, form))
+                notes.push_back(hit.loop + ": " +
+                                (!hit.refusal.empty() ? hit.refusal
+                                 : hit.form == FirstHitForm::AnyHit
+                                     ? "greatest gap"
+                                     : "greatest key, then refetch"));
+            return notes;
+        };
+    };
     static const std::map<std::string, std::function<Notes(Program&)>> passes = {
         {"fold_constants", quiet(fold_constants)},
         {"eliminate_common_subexpressions", quiet(eliminate_common_subexpressions)},
@@ -71,15 +83,8 @@ const std::map<std::string, std::function<Notes(Program&)>>& known_passes() {
              remove_unused_interpolants(program);
              return Notes{};
          }},
-        {"lower_first_hit",
-         [](Program& program) {
-             Notes notes;
-             for (const FirstHit& hit :
-                  lower_first_hit(program.pixel, FirstHitForm::PackedRefetch))
-                 notes.push_back(hit.loop + ": " +
-                                 (hit.refusal.empty() ? "greatest key, then refetch" : hit.refusal));
-             return notes;
-         }},
+        {"lower_first_hit", first_hit(FirstHitForm::PackedRefetch)},
+        {"lower_first_hit any", first_hit(FirstHitForm::AnyHit)},
         {"optimize", optimized({.verify_each = true})},
         {"optimize unrolled flat",
          optimized({.unroll_all = true, .flatten_all = true, .verify_each = true})},

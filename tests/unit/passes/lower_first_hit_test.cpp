@@ -99,11 +99,13 @@ Environment view(Random& random, const Module& module, const Texture& texture) {
     return environment;
 }
 
-void expect_same(const Module& before, const Module& after, std::uint64_t seed, int count) {
+enum class Maps { Sane, WithOdd };
+void expect_same(const Module& before, const Module& after, std::uint64_t seed, int count,
+                 Maps maps = Maps::WithOdd) {
     Random random(seed);
     const Evaluator original(before), lowered(after);
     for (int map = 0; map < 12; ++map) {
-        const Texture texture = height_field(random, map % 4 == 3);
+        const Texture texture = height_field(random, maps == Maps::WithOdd && map % 4 == 3);
         for (int i = 0; i < count; ++i) {
             const Environment environment = view(random, before, texture);
             const Evaluation a = original.run(environment, Precision::Single);
@@ -166,6 +168,118 @@ TEST(LowerFirstHit, ShadowMarchBehindAnySearch) {
             expect_same(loop, packed, 200, 60);
             if (HasFatalFailure()) return;
         }
+}
+
+TEST(LowerFirstHit, AShadowRayIsOnlyAskedWhetherItHits) {
+    for (int steps : {1, 5, 8, 20})
+        for (int least : {1, steps}) {
+            const Module loop = technique("steep_parallax,shadow=march,output=displaced",
+                                          {{"min_steps", "3"},
+                                           {"max_steps", "3"},
+                                           {"shadow_min_steps", std::to_string(least)},
+                                           {"shadow_max_steps", std::to_string(steps)}});
+            Module any = loop, packed = loop;
+            const std::vector<FirstHit> hits = flatten(any, FirstHitForm::AnyHit);
+            ASSERT_EQ(hits.size(), 2u);
+            EXPECT_FALSE(hits[0].only_whether) << "where it hits matters";
+            EXPECT_EQ(hits[0].form, FirstHitForm::PackedRefetch);
+            EXPECT_TRUE(hits[1].only_whether);
+            EXPECT_EQ(hits[1].form, FirstHitForm::AnyHit);
+            flatten(packed, FirstHitForm::PackedRefetch);
+            expect_same(loop, any, 400, 100, Maps::Sane);
+            if (HasFatalFailure()) return;
+            EXPECT_EQ(cost_of(any).reads, cost_of(packed).reads);
+            if (steps > 1) {
+                EXPECT_LT(cost_of(any).lanes, cost_of(packed).lanes);
+            }
+        }
+}
+
+// A ray of which one asks whether it hits: the comparison of hit and truth, with or without a stop.
+struct Shadow {
+    bool stops = false, strict = false, of_hit = false, swapped = false, flipped = false;
+    bool falls = false;    // the stop need not stay
+    bool escapes = false;  // a result is used otherwise
+    bool differs = false;  // the truth is not the hit's
+};
+
+Module shadow(const Shadow& shape) {
+    Module module;
+    module.stage = Stage::Function;
+    module.inputs = {{"uv", float2, Semantic::Parameter},
+                     {"slope", float2, Semantic::Parameter},
+                     {"start", float1, Semantic::Parameter},
+                     {"first", float1, Semantic::Parameter}};
+    module.outputs = {{"seen", float1, Semantic::Result}};
+    module.uniforms = {{"step", float1, 1, ""}};
+    module.samplers = {{"height", 2, ""}};
+    Builder builder(module);
+    const ValueId uv = builder.input(0), slope = builder.input(1), start = builder.input(2);
+    const ValueId zero = builder.constant(0.0f), one = builder.constant(1.0f);
+    const ValueId any_step = builder.uniform(0);
+    const ValueId step = shape.falls ? any_step : builder.emit(Op::Abs, {any_step});
+    const auto compare = [&](bool hit, ValueId height, ValueId ray) {
+        if (hit != shape.flipped) std::swap(height, ray);  // hit: ray < height, unless flipped
+        const bool strict = shape.strict == hit;
+        if (shape.swapped)
+            return builder.emit(strict ? Op::Greater : Op::GreaterEqual, {ray, height});
+        return builder.emit(strict ? Op::Less : Op::LessEqual, {height, ray});
+    };
+    const Builder::LoopScope loop =
+        builder.begin_loop({"ray", 6, LoopForm::Unspecified, false},
+                           std::array{builder.emit(Op::Mul, {zero, step}), builder.input(3)});
+    const ValueId ray = builder.emit(Op::Add, {start, loop.carried[0]});
+    ValueId condition = compare(true, loop.carried[1], ray);
+    if (shape.stops)
+        condition = builder.emit(Op::Or, {condition, builder.emit(Op::Greater, {ray, one})});
+    builder.break_if(condition, loop.carried);
+    const ValueId next_index = builder.emit(Op::Add, {loop.index, builder.constant(1)});
+    const ValueId rise = builder.emit(Op::Mul, {builder.emit(Op::ToFloat, {next_index}), step});
+    const ValueId offset = builder.emit(Op::Mul, {slope, builder.swizzle(rise, "xx")});
+    const ValueId texel =
+        builder.sample(Op::SampleLevel, 0, {builder.emit(Op::Add, {uv, offset}), zero});
+    const std::vector<ValueId> found =
+        builder.end_loop(std::array{rise, builder.swizzle(texel, "x")});
+    const ValueId last = builder.emit(Op::Add, {shape.differs ? one : start, found[0]});
+    const ValueId truth = compare(shape.of_hit, found[1], last);
+    ValueId seen = builder.emit(Op::Select, {truth, one, zero});
+    if (shape.escapes) seen = builder.emit(Op::Add, {seen, found[1]});
+    builder.finish({&seen, 1});
+    return module;
+}
+
+TEST(LowerFirstHit, EveryShapeOfAShadowRay) {
+    int both = 0;
+    for (unsigned bits = 0; bits < 256; ++bits) {
+        const auto bit = [&](unsigned i) { return (bits >> i & 1u) != 0; };
+        const Shadow shape = {bit(0), bit(1), bit(2), bit(3), bit(4), bit(5), bit(6), bit(7)};
+        SCOPED_TRACE(fmt::format("shape {}", bits));
+        Module loop = shadow(shape);
+        ASSERT_TRUE(optimize(loop, {.verify_each = true}).ok());
+        Module any = loop;
+        const std::vector<FirstHit> hits = flatten(any, FirstHitForm::AnyHit);
+        ASSERT_EQ(hits.size(), 1u);
+        const bool possible = !shape.escapes && !shape.differs && !(shape.stops && shape.falls);
+        EXPECT_EQ(hits[0].form, possible ? FirstHitForm::AnyHit : FirstHitForm::PackedRefetch)
+            << print(loop);
+        Random random(bits);
+        const Evaluator original(loop), lowered(any);
+        bool seen[2] = {};
+        for (int i = 0; i < 300; ++i) {
+            const Texture texture = height_field(random, false);
+            Environment environment = view(random, loop, texture);
+            for (std::size_t input : {2, 3})
+                environment.inputs[input][0] = static_cast<double>(random.unit());
+            environment.uniforms[0][0][0] = static_cast<double>(random.unit() * 0.6f - 0.3f);
+            environment.right_inputs = environment.lower_inputs = environment.inputs;
+            const Evaluation a = original.run(environment, Precision::Single);
+            const Evaluation b = lowered.run(adapt(environment, loop, any), Precision::Single);
+            ASSERT_EQ(difference(a, b, Precision::Single), "") << print(loop) << print(any);
+            seen[a.outputs[0][0] >= 0.5 ? 1 : 0] = true;
+        }
+        both += seen[0] && seen[1] ? 1 : 0;
+    }
+    EXPECT_GT(both, 200) << "hardly any shape is seen both ways: this shows little";
 }
 
 TEST(LowerFirstHit, TheShadedSurface) {
