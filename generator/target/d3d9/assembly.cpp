@@ -30,15 +30,17 @@ std::string float_text(std::uint32_t bits) {
     return text;
 }
 
-std::string register_text(File file, int index, const std::optional<Relative>& relative) {
+// The assembler wants _abs before the bracket: c3_abs[a0.x].
+std::string register_text(File file, int index, const std::optional<Relative>& relative,
+                          std::string_view suffix = "") {
     const FileInfo& row = info(file);
     std::string text(row.name);
     if (row.numbered) text += fmt::format("{}", index);
+    text += suffix;
     if (!relative) return text;
-    const bool is_address = relative->file == File::Address;
-    return text + (is_address ? fmt::format("[a0.{}]",
-                                            letters[static_cast<std::size_t>(relative->component)])
-                              : "[aL]");
+    if (relative->file == File::LoopCounter) return text + "[aL]";
+    const auto component = static_cast<std::size_t>(relative->component);
+    return text + fmt::format("[a0.{}]", letters[component]);
 }
 
 std::string swizzle_text(const Swizzle& swizzle) {
@@ -166,12 +168,11 @@ std::string text_of(const Source& source) {
         source.modifier == Modifier::Negate || source.modifier == Modifier::AbsNegate;
     const bool absolute =
         source.modifier == Modifier::Abs || source.modifier == Modifier::AbsNegate;
-    return fmt::format("{}{}{}{}",
-                       negated                            ? "-"
-                       : source.modifier == Modifier::Not ? "!"
-                                                          : "",
-                       register_text(source.file, source.index, source.relative),
-                       absolute ? "_abs" : "", swizzle_text(source.swizzle));
+    const std::string_view sign = negated ? "-" : source.modifier == Modifier::Not ? "!" : "";
+    const std::string_view suffix = absolute ? "_abs" : "";
+    return fmt::format("{}{}{}", sign,
+                       register_text(source.file, source.index, source.relative, suffix),
+                       swizzle_text(source.swizzle));
 }
 
 std::string text_of(const Destination& destination) {

@@ -299,7 +299,8 @@ class Parser {
     struct Register {
         File file = File::Temp;
         int index = 0;
-        std::optional<Relative> relative;
+        std::optional<Relative> relative = {};
+        bool absolute = false;
     };
 
     Result<Register> parse_register(LineScanner& scan) {
@@ -310,19 +311,30 @@ class Parser {
             return error(column, name.empty() ? "expected a register"
                                               : fmt::format("{} has no register \"{}\"",
                                                             version_of(shader_.profile), name));
-        Register result{*file, 0, std::nullopt};
-        if (!info(*file).numbered) return result;
-        const bool bare = scan.peek_adjacent() == '[';
-        if (!bare) {
-            const char next = scan.peek_adjacent();
-            const auto index =
-                next >= '0' && next <= '9' ? scan.number(last_register) : std::nullopt;
-            if (!index)
-                return error(
-                    column, fmt::format("a register number of {} is 0 to {}", name, last_register));
-            result.index = *index;
-        }
-        if (scan.peek_adjacent() != '[' || !scan.take("[")) return result;
+        Register result{.file = *file};
+        const bool numbered = info(*file).numbered;
+        const char next = scan.peek_adjacent();
+        const bool has_number = next >= '0' && next <= '9';
+        const auto index = numbered && has_number ? scan.number(last_register) : std::nullopt;
+        result.index = index.value_or(0);
+        result.absolute = take_abs(scan);
+        const bool indexed = numbered && scan.peek_adjacent() == '[';
+        if (numbered && !index && (has_number || !indexed))
+            return error(column,
+                         fmt::format("a register number of {} is 0 to {}", name, last_register));
+        if (!indexed) return result;
+        auto status = parse_relative(scan, result);
+        if (!status) return status.error();
+        return result;
+    }
+
+    static bool take_abs(LineScanner& scan) {
+        return scan.peek_adjacent() == '_' && scan.take("_abs");
+    }
+
+    // "[a0.x + 3]" after a register
+    Status parse_relative(LineScanner& scan, Register& result) {
+        scan.take("[");
         Relative relative;
         if (scan.take("aL")) {
             relative.file = File::LoopCounter;
@@ -343,7 +355,9 @@ class Parser {
         }
         if (!scan.take("]")) return error(scan.column(), "expected ]");
         result.relative = relative;
-        return result;
+        // The disassembler prints _abs behind the bracket, where the assembler refuses it.
+        result.absolute = take_abs(scan) || result.absolute;
+        return Done{};
     }
 
     static bool is_lane(char letter) { return lane_of(letter) < 4; }
@@ -362,8 +376,10 @@ class Parser {
     }
 
     Result<Destination> parse_destination(LineScanner& scan) {
+        const int register_column = scan.column();
         auto target = parse_register(scan);
         if (!target) return target.error();
+        if (target->absolute) return error(register_column, "a destination has no _abs");
         const int column = scan.column();
         auto lanes = parse_lanes(scan);
         if (!lanes) return lanes.error();
@@ -391,7 +407,7 @@ class Parser {
         result.file = target->file;
         result.index = target->index;
         result.relative = target->relative;
-        const bool absolute = scan.take("_abs");
+        const bool absolute = target->absolute;
         if (inverted && absolute) return error(column, "! and _abs exclude each other");
         result.modifier = inverted              ? Modifier::Not
                           : negated && absolute ? Modifier::AbsNegate

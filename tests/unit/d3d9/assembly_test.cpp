@@ -95,10 +95,15 @@ TEST(Assembly, FloatsReadBackToTheBit) {
 }
 
 TEST(Assembly, ShorthandsOfTheSyntax) {
-    const auto wide = parse("vs_3_0\nmov r0, c[a0.y + 3].xy\nmov o[aL], v2[aL].bgra\n", "");
+    const auto wide = parse(
+        "vs_3_0\nmov r0, c[a0.y + 3].xy\nmov o[aL], v2[aL].bgra\n"
+        "mov r0, -c_abs[a0.z + 1]\nmov r0, c[a0.z]_abs.x\n",
+        "");
     ASSERT_TRUE(wide) << to_string(wide.error());
     EXPECT_EQ(text_of(wide->instructions[0]), "mov r0, c3[a0.y].xyyy");
     EXPECT_EQ(text_of(wide->instructions[1]), "mov o0[aL], v2[aL].zyxw");
+    EXPECT_EQ(text_of(wide->instructions[2]), "mov r0, -c1_abs[a0.z]");
+    EXPECT_EQ(text_of(wide->instructions[3]), "mov r0, c0_abs[a0.z].x");
 }
 
 struct Refusal {
@@ -129,6 +134,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{"ps_2_0\nmov r0, q1\n", 2, 9, "no register \"q\""},
                     Refusal{"ps_3_0\nmov r0, t1\n", 2, 9, "ps_3_0 has no register \"t\""},
                     Refusal{"ps_2_0\nmov r2048, c1\n", 2, 5, "0 to 2047"},
+                    Refusal{"ps_3_0\nmov r0_abs, c1\n", 2, 5, "no _abs"},
                     Refusal{"ps_2_0\nmov r0.yx, c1\n", 2, 7, "in the order xyzw"},
                     Refusal{"ps_2_0\nmov r0, c1.xq\n", 2, 12, "one to four"},
                     Refusal{"ps_2_0\nif c0.x, c1.x\n", 2, 8, "goes on"},
