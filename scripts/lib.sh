@@ -14,6 +14,7 @@ intaglio_packages=(
     llvm-14
     # validators and translators
     glslang-dev glslang-tools spirv-tools spirv-headers libspirv-cross-c-shared-dev spirv-cross
+    libmojoshader-dev
     # running on the CPU: loader, validation layer, lavapipe
     libvulkan-dev vulkan-validationlayers mesa-vulkan-drivers
     # libraries
