@@ -62,8 +62,9 @@ std::vector<Read> reads_of(const Check& check, const Instruction& it) {
         unsigned components = components_read(it, static_cast<int>(i), sampler);
         if (it.op == Opcode::Nrm && !check.limits.strict)
             components = components_read(only_xyz(it), static_cast<int>(i), sampler);
-        // Nor does it look at gradients.
-        if (it.op == Opcode::Texldd && i >= 2 && !check.limits.strict) components = 0;
+        // Nor does it look at gradients, nor in ps_2_x at anything that texldd reads.
+        if (it.op == Opcode::Texldd && !check.limits.strict && (i >= 2 || !check.limits.model_3()))
+            components = 0;
         const int registers = i == 1 && row.matrix_rows > 0 ? row.matrix_rows : 1;
         for (int r = 0; r < registers; ++r)
             reads.push_back({source.file, source.index + r, components});
@@ -96,8 +97,11 @@ void declared_reads(const Check& check) {
     for (int i = 0; i < static_cast<int>(check.shader.instructions.size()); ++i) {
         const Instruction& it = check.shader.instructions[static_cast<std::size_t>(i)];
         if (!usable(check, it)) continue;
+        const bool unseen =
+            it.op == Opcode::Texldd && !check.limits.strict && !check.limits.model_3();
         for (const Source& source : it.sources)
-            if (source.file == File::Sampler && declared.count({source.file, source.index}) == 0)
+            if (source.file == File::Sampler && !unseen &&
+                declared.count({source.file, source.index}) == 0)
                 check.refuse("undeclared-sampler",
                              fmt::format("{} is not declared",
                                          text_of(Destination{source.file, source.index})),

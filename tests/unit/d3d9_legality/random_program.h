@@ -6,7 +6,7 @@
 
 namespace intaglio::d3d9 {
 
-// About half are legal.  Profiles: ps_2_0, ps_2_a (as ps_2_x), ps_3_0.
+// A fifth to a half are legal.  Profiles: ps_2_0, ps_2_a (as ps_2_x), ps_3_0.
 Shader random_program(Profile profile, unsigned seed);
 
 // Any operand anywhere, any number of them, any nesting, any profile.
