@@ -1,0 +1,77 @@
+// Instructions over virtual registers: what placement makes of the graph, and allocation and the
+// constant pool of it.  Each lane of a virtual register is written once.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "generator/target/d3d9/generate/graph.h"
+#include "generator/target/d3d9/limits.h"
+
+namespace intaglio::d3d9 {
+
+// Floats that a definition must hold, by the position that the reading instruction sees them at.
+struct Wanted {
+    std::array<std::uint32_t, 4> bits{};
+    Mask mask = 0;
+    friend bool operator==(const Wanted&, const Wanted&) = default;
+};
+
+struct VirtualSource {
+    enum class Kind : std::uint8_t { Temp, Constant, Uniform, Input };
+    Kind kind = Kind::Temp;
+    int index = 0;  // virtual register, c# or input; of a constant, its definition once pooled
+    Swizzle swizzle = identity_swizzle;
+    bool negate = false;
+    Wanted wanted;  // Constant
+};
+
+struct VirtualInstruction {
+    Opcode op = Opcode::Mov;
+    int target = -1;  // virtual register
+    int output = -1;  // or oC#
+    Mask mask = full_mask;
+    bool saturate = false;
+    int sampler = -1;
+    std::vector<VirtualSource> sources;
+    ir::Origin origin;
+};
+
+struct Code {
+    std::vector<VirtualInstruction> instructions;
+    std::vector<Mask> lanes;  // of each virtual register: those that are ever written
+};
+
+// Which component each lane sees, so that position k gets component lanes[k] (-1: any); nothing if
+// the profile has no such swizzle.
+std::optional<Swizzle> find_swizzle(const std::array<int, 4>& lanes, const Limits& limits);
+
+// Chooses lanes for the nodes' results and writes the instructions in this order, with the moves
+// that swizzles, ports and texture coordinates need.  `uniform_registers` gives each uniform's
+// first c#.
+Code place(const Graph& graph, const std::vector<int>& order, const Limits& limits,
+           const std::vector<int>& uniform_registers);
+
+// Definitions for the constants that instructions want; sets the sources' index and swizzle.
+// Nothing if more than `limits.constants` would be needed; `first` is the first free c#.
+std::optional<std::vector<Definition>> pool_constants(Code& code, const Limits& limits, int first);
+// Whether one definition can serve both.
+bool can_share(const Wanted& a, const Wanted& b, const Limits& limits);
+
+// Why registers could not be given.
+enum class AllocationFailure : std::uint8_t { Temps, DependentReads };
+struct Allocation {
+    struct Place {
+        int number = -1;
+        int shift = 0;      // what is added to the lane: not 0 only where a register has one lane
+        int only_lane = 0;  // that one, before the shift
+    };
+    std::vector<Place> places;  // by virtual register
+    std::optional<AllocationFailure> failure;
+    int failed_at = -1;  // instruction
+};
+Allocation allocate(const Code& code, const Limits& limits);
+
+}  // namespace intaglio::d3d9

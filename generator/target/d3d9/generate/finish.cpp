@@ -1,0 +1,182 @@
+// The last step: everything gets its number.
+#include "generator/target/d3d9/generate/finish.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace intaglio::d3d9 {
+namespace {
+
+class Finish {
+  public:
+    Finish(const ir::Module& module, Profile profile)
+        : module_(module), limits_(limits_of(profile)) {
+        result_.shader.profile = profile;
+        result_.shader.files = module.files;
+        result_.shader.steps = module.steps;
+    }
+
+    Finished run(const Graph& graph, const std::vector<int>& order) {
+        int next = 0;
+        const std::vector<int> uniforms = assign_uniforms(module_, graph, next);
+        Code code = place(graph, order, limits_, uniforms);
+        Limits unlimited = limits_;
+        unlimited.constants = no_limit;
+        result_.shader.definitions = *pool_constants(code, unlimited, next);
+        const Allocation allocation = allocate(code, limits_);
+        result_.failure = allocation.failure;
+        result_.failed_at = allocation.failed_at;
+        for (const VirtualInstruction& instruction : code.instructions)
+            result_.shader.instructions.push_back(convert(instruction, allocation));
+        declare(code, uniforms);
+        return std::move(result_);
+    }
+
+  private:
+    bool model_3() const { return result_.shader.profile == Profile::ps_3_0; }
+    File input_file() const { return model_3() ? File::Input : File::Texture; }
+
+    static Allocation::Place place_of(const Allocation& allocation, int index) {
+        Allocation::Place place = allocation.places[static_cast<std::size_t>(index)];
+        if (place.number < 0) place.number = 0;  // allocation failed before it
+        return place;
+    }
+
+    Instruction convert(const VirtualInstruction& from, const Allocation& allocation) const {
+        Instruction to;
+        to.op = from.op;
+        to.origin = from.origin;
+        Destination destination;
+        if (from.output >= 0) {
+            destination.file = File::ColourOut;
+            destination.index = from.output;
+        } else {
+            const Allocation::Place place = place_of(allocation, from.target);
+            destination.index = place.number;
+            destination.mask = static_cast<Mask>(place.shift >= 0 ? from.mask << place.shift
+                                                                  : from.mask >> -place.shift);
+            destination.saturate = from.saturate;
+        }
+        to.destination = destination;
+        const bool texture = from.sampler >= 0;
+        // The one lane may have moved, and what it sees must move with it.
+        const bool one_lane = from.output < 0 && !texture && !is_dot(from.op) &&
+                              std::has_single_bit(static_cast<unsigned>(from.mask));
+        const int lane = std::countr_zero(static_cast<unsigned>(from.mask));
+        for (std::size_t k = 0; k < from.sources.size(); ++k) {
+            VirtualSource source = from.sources[k];
+            if (one_lane)
+                source.swizzle = replicate(source.swizzle[static_cast<std::size_t>(lane)]);
+            to.sources.push_back(convert(source, allocation));
+            if (texture && k == 0) to.sources.push_back(sampler_source(from.sampler));
+        }
+        return to;
+    }
+    static Source sampler_source(int index) {
+        Source source;
+        source.file = File::Sampler;
+        source.index = index;
+        return source;
+    }
+    Source convert(const VirtualSource& from, const Allocation& allocation) const {
+        Source to;
+        to.index = from.index;
+        to.swizzle = from.swizzle;
+        to.modifier = from.negate ? Modifier::Negate : Modifier::None;
+        if (from.kind == VirtualSource::Kind::Input) to.file = input_file();
+        if (from.kind == VirtualSource::Kind::Constant || from.kind == VirtualSource::Kind::Uniform)
+            to.file = File::Const;
+        if (from.kind == VirtualSource::Kind::Temp) {
+            const Allocation::Place place = place_of(allocation, from.index);
+            to.index = place.number;
+            if (place.shift != 0) to.swizzle = replicate(place.only_lane + place.shift);
+        }
+        return to;
+    }
+
+    void declare(const Code& code, const std::vector<int>& uniforms) {
+        std::vector<char> inputs(module_.inputs.size()), samplers(module_.samplers.size());
+        for (const VirtualInstruction& instruction : code.instructions) {
+            if (instruction.sampler >= 0)
+                samplers[static_cast<std::size_t>(instruction.sampler)] = 1;
+            for (const VirtualSource& source : instruction.sources)
+                if (source.kind == VirtualSource::Kind::Input)
+                    inputs[static_cast<std::size_t>(source.index)] = 1;
+        }
+        for (std::size_t i = 0; i < inputs.size(); ++i) {
+            if (inputs[i] == 0) continue;
+            Declaration declaration;
+            declaration.target.file = input_file();
+            declaration.target.index = static_cast<int>(i);
+            declaration.target.mask = static_cast<Mask>((1 << module_.inputs[i].type.width) - 1);
+            if (model_3()) {
+                declaration.usage = Usage::Texcoord;
+                declaration.usage_index = static_cast<int>(i);
+            }
+            result_.shader.declarations.push_back(declaration);
+        }
+        add_uniforms(uniforms);
+        for (std::size_t i = 0; i < samplers.size(); ++i) {
+            if (samplers[i] == 0) continue;
+            Declaration declaration;
+            declaration.target.file = File::Sampler;
+            declaration.target.index = static_cast<int>(i);
+            declaration.sampler =
+                module_.samplers[i].dimension == 3 ? SamplerKind::Volume : SamplerKind::Texture2D;
+            result_.shader.declarations.push_back(declaration);
+            Constant constant;
+            constant.name = module_.samplers[i].name;
+            constant.set = Constant::Set::Sampler;
+            constant.index = static_cast<int>(i);
+            constant.columns = 0;
+            result_.shader.constants.push_back(constant);
+        }
+    }
+    void add_uniforms(const std::vector<int>& uniforms) {
+        for (std::size_t i = 0; i < uniforms.size(); ++i) {
+            if (uniforms[i] < 0) continue;
+            const ir::Uniform& uniform = module_.uniforms[i];
+            Constant constant;
+            constant.name = uniform.name;
+            constant.index = uniforms[i];
+            constant.count = uniform.count;
+            constant.columns = uniform.type.width;
+            constant.elements = uniform.count;
+            result_.shader.constants.push_back(constant);
+        }
+    }
+
+    const ir::Module& module_;
+    const Limits& limits_;
+    Finished result_;
+};
+
+}  // namespace
+
+std::vector<int> assign_uniforms(const ir::Module& module, const Graph& graph, int& next) {
+    std::vector<char> used(module.uniforms.size());
+    const auto mark = [&](const Operand& operand) {
+        for (const Lane lane : operand.lanes)
+            if (graph.node(lane).kind == Node::Kind::Uniform)
+                used[static_cast<std::size_t>(graph.node(lane).slot)] = 1;
+    };
+    for (const int index : order_of(graph, Order::Depth))
+        for (const Operand& operand : graph.nodes[static_cast<std::size_t>(index)].operands)
+            mark(operand);
+    for (const Operand& output : graph.outputs) mark(output);
+    std::vector<int> registers(module.uniforms.size(), -1);
+    next = 0;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        if (used[i] == 0) continue;
+        registers[i] = next;
+        next += module.uniforms[i].count;
+    }
+    return registers;
+}
+
+Finished finish(const ir::Module& module, const Graph& graph, const std::vector<int>& order,
+                Profile profile) {
+    return Finish(module, profile).run(graph, order);
+}
+
+}  // namespace intaglio::d3d9

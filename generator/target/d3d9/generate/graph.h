@@ -1,0 +1,76 @@
+// A shader as a graph of Direct3D instructions before registers: what selection makes of the IR and
+// packing works on.  An operand names each of its components by the node and component it comes
+// from, so that shapes (compose, swizzle) cost nothing here and two scalar instructions of one kind
+// become one instruction by joining their lists.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "generator/ir/module.h"
+#include "generator/target/d3d9/shader.h"
+
+namespace intaglio::d3d9 {
+
+struct Lane {
+    int node = -1;
+    int component = 0;
+    friend bool operator==(const Lane&, const Lane&) = default;
+    friend auto operator<=>(const Lane&, const Lane&) = default;
+};
+
+// One to four components, all with the sign or none.
+struct Operand {
+    std::vector<Lane> lanes;
+    bool negate = false;
+    friend bool operator==(const Operand&, const Operand&) = default;
+    friend auto operator<=>(const Operand&, const Operand&) = default;
+};
+
+struct Node {
+    enum class Kind : std::uint8_t { Op, Constant, Uniform, Input };
+    Kind kind = Kind::Op;
+    Opcode op = Opcode::Mov;
+    bool saturate = false;
+    int width = 1;           // components of the result; 4 of a texture read
+    int slot = 0;            // uniform, input, or the sampler of a texture read
+    int element = 0;         // of a uniform array
+    std::uint32_t bits = 0;  // of a constant, which is one float
+    std::vector<Operand> operands;
+    ir::Origin origin;
+};
+
+struct Graph {
+    std::vector<Node> nodes;       // operands may point anywhere; order() sorts
+    std::vector<Operand> outputs;  // of four components each: oC0, oC1 ...
+
+    const Node& node(Lane lane) const { return nodes[static_cast<std::size_t>(lane.node)]; }
+    Node& node(Lane lane) { return nodes[static_cast<std::size_t>(lane.node)]; }
+};
+
+// Rcp, rsq, exp, log: one component in, one out.
+bool is_scalar(Opcode op);
+bool is_dot(Opcode op);
+bool is_texture_read(Opcode op);
+// Each component of the result depends on the same component of the operands alone.
+bool is_componentwise(Opcode op);
+
+// For each node, the operands (of nodes and outputs) that read it.
+std::vector<int> count_users(const Graph& graph);
+
+// In what order instructions are written.
+enum class Order : std::uint8_t {
+    Depth,         // each just before its first use, operands from left to right
+    DepthReverse,  // operands from right to left
+    Heavy,         // the operand that needs more registers first
+    Source,        // as recorded, where dependence allows
+};
+inline constexpr Order all_orders[] = {Order::Heavy, Order::Depth, Order::DepthReverse,
+                                       Order::Source};
+
+// The live op nodes, each after those it reads; empty if the graph has a cycle.
+std::vector<int> order_of(const Graph& graph, Order order);
+
+}  // namespace intaglio::d3d9

@@ -1,0 +1,22 @@
+// IR to the instruction graph: which Direct3D instructions compute each op.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "generator/base/result.h"
+#include "generator/target/d3d9/generate/graph.h"
+
+namespace intaglio::d3d9 {
+
+// A pixel module without loops and ifs (unrolled, flattened) to instructions of the profile, mads
+// and saturations formed.  Refuses [d3d9-level] a texture read at a level that the profile cannot
+// name, [d3d9-op] what has no instructions.  `notes` gets a sentence for each deviation from the
+// IR's meaning.
+Result<Graph> lower(const ir::Module& module, Profile profile, std::vector<std::string>& notes);
+
+// Forms mad and _sat, drops what nothing reads.  Rounding differs by the product's, as mad's does
+// on the hardware of the profiles.
+void simplify(Graph& graph);
+
+}  // namespace intaglio::d3d9

@@ -1,0 +1,493 @@
+// Components to lanes.  A vector that an instruction needs whole is computed in place: the nodes
+// that give its components get lanes of one register, consumers first; what cannot be (texels,
+// inputs, constants, values that another vector has already) is moved there.  Scalars that only
+// scalars read stay free for the allocator, which may put them into any lane.
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "generator/target/d3d9/generate/code.h"
+
+namespace intaglio::d3d9 {
+
+namespace {
+constexpr Swizzle limited_swizzles[] = {{0, 1, 2, 3}, {0, 0, 0, 0}, {1, 1, 1, 1}, {2, 2, 2, 2},
+                                        {3, 3, 3, 3}, {1, 2, 0, 3}, {2, 0, 1, 3}, {3, 2, 1, 0}};
+}
+
+std::optional<Swizzle> find_swizzle(const std::array<int, 4>& lanes, const Limits& limits) {
+    for (const Swizzle& candidate : limited_swizzles) {
+        bool fits = true;
+        for (std::size_t k = 0; k < 4; ++k)
+            fits = fits && (lanes[k] < 0 || lanes[k] == candidate[k]);
+        if (fits) return candidate;
+    }
+    if (!limits.arbitrary_swizzle) return std::nullopt;
+    Swizzle result{};
+    int last = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+        if (lanes[k] >= 0) {
+            last = lanes[k];
+            break;
+        }
+    for (std::size_t k = 0; k < 4; ++k) {
+        if (lanes[k] >= 0) last = lanes[k];
+        result[k] = static_cast<std::uint8_t>(last);
+    }
+    return result;
+}
+
+namespace {
+
+struct Location {
+    VirtualSource::Kind kind = VirtualSource::Kind::Temp;
+    int index = -1;
+    int lane = 0;
+    bool same_register(const Location& other) const {
+        return kind == other.kind && index == other.index;
+    }
+};
+
+using Positions = std::vector<int>;  // where each component of an operand must appear
+
+class Placement {
+  public:
+    Placement(const Graph& graph, const std::vector<int>& order, const Limits& limits,
+              const std::vector<int>& uniform_registers)
+        : graph_(graph),
+          order_(order),
+          limits_(limits),
+          uniforms_(uniform_registers),
+          homes_(graph.nodes.size()) {}
+
+    Code run() {
+        for (std::size_t k = 0; k < graph_.outputs.size(); ++k)
+            want({-1, static_cast<int>(k)}, graph_.outputs[k], {0, 1, 2, 3}, true);
+        for (std::size_t i = order_.size(); i-- > 0;) choose_homes(order_[i]);
+        for (const int index : order_) emit(index);
+        for (std::size_t k = 0; k < graph_.outputs.size(); ++k) emit_output(static_cast<int>(k));
+        return std::move(code_);
+    }
+
+  private:
+    struct Home {
+        int target = -1;
+        std::array<int, 4> lane{};
+    };
+
+    const Node& node(int index) const { return graph_.nodes[static_cast<std::size_t>(index)]; }
+    Home& home(int index) { return homes_[static_cast<std::size_t>(index)]; }
+    Mask& lanes(int target) { return code_.lanes[static_cast<std::size_t>(target)]; }
+    int new_register() {
+        code_.lanes.push_back(0);
+        fills_.emplace_back();
+        return static_cast<int>(code_.lanes.size()) - 1;
+    }
+    bool free(int target, int lane) { return (lanes(target) >> lane & 1) == 0; }
+    void occupy(int target, int lane) {
+        lanes(target) = static_cast<Mask>(lanes(target) | (1 << lane));
+    }
+
+    bool is_homeless(int index) {
+        return node(index).kind == Node::Kind::Op && !is_texture_read(node(index).op) &&
+               home(index).target < 0;
+    }
+
+    // Tries to give the node a home in which its components at these lanes of the operand appear.
+    bool settle(int index, const Operand& operand, const Positions& positions, int target) {
+        std::array<int, 4> lane{-1, -1, -1, -1};
+        Mask taken = lanes(target);
+        for (std::size_t k = 0; k < operand.lanes.size(); ++k) {
+            if (operand.lanes[k].node != index) continue;
+            int& mine = lane[static_cast<std::size_t>(operand.lanes[k].component)];
+            if (mine >= 0 || (taken >> positions[k] & 1) != 0) return false;
+            mine = positions[k];
+            taken = static_cast<Mask>(taken | (1 << positions[k]));
+        }
+        // Lanes that other components of the operand need are not for the rest.
+        Mask needed = taken;
+        for (const int position : positions) needed = static_cast<Mask>(needed | (1 << position));
+        for (int c = 0; c < node(index).width; ++c) {
+            int& mine = lane[static_cast<std::size_t>(c)];
+            for (int l = 0; mine < 0 && l < 4; ++l)
+                if ((needed >> l & 1) == 0) {
+                    mine = l;
+                    needed = static_cast<Mask>(needed | (1 << l));
+                    taken = static_cast<Mask>(taken | (1 << l));
+                }
+            if (mine < 0) return false;
+        }
+        home(index) = {target, lane};
+        lanes(target) = taken;
+        return true;
+    }
+
+    // An operand that must be seen at these positions: homes for what has none.
+    void want(std::pair<int, int> user, const Operand& operand, const Positions& positions,
+              bool exact) {
+        std::vector<int> sources;
+        for (const Lane lane : operand.lanes)
+            if (std::find(sources.begin(), sources.end(), lane.node) == sources.end())
+                sources.push_back(lane.node);
+        if (sources.size() == 1) {
+            const int only = sources[0];
+            if (!is_homeless(only) || (node(only).width < 2 && !exact)) return;
+            const int target = new_register();
+            if (!settle(only, operand, positions, target)) return;
+            return;
+        }
+        if (std::all_of(sources.begin(), sources.end(),
+                        [&](int index) { return node(index).kind == Node::Kind::Constant; }))
+            return;
+        const int target = vector_for(operand, positions);
+        for (const int index : sources)
+            if (is_homeless(index)) settle(index, operand, positions, target);
+        for (std::size_t k = 0; k < operand.lanes.size(); ++k) {
+            const int position = positions[k];
+            if (is_at(operand.lanes[k], target, position) || !free(target, position)) continue;
+            occupy(target, position);
+            fills_[static_cast<std::size_t>(target)][static_cast<std::size_t>(position)] =
+                operand.lanes[k];
+        }
+        gathers_[user] = target;
+    }
+    // The register that has most of the operand in place and room for the rest, or a new one.
+    int vector_for(const Operand& operand, const Positions& positions) {
+        std::map<int, int> fitting;
+        for (std::size_t k = 0; k < operand.lanes.size(); ++k) {
+            const Lane lane = operand.lanes[k];
+            if (node(lane.node).kind != Node::Kind::Op || home(lane.node).target < 0) continue;
+            if (is_texture_read(node(lane.node).op)) continue;
+            const Home& h = home(lane.node);
+            if (h.lane[static_cast<std::size_t>(lane.component)] == positions[k])
+                ++fitting[h.target];
+        }
+        int best = -1, most = 0;
+        for (const auto& [target, count] : fitting) {
+            bool room = true;
+            for (std::size_t k = 0; k < operand.lanes.size(); ++k)
+                room = room && (is_at(operand.lanes[k], target, positions[k]) ||
+                                free(target, positions[k]));
+            if (room && count > most) {
+                best = target;
+                most = count;
+            }
+        }
+        return best >= 0 ? best : new_register();
+    }
+    bool is_at(Lane lane, int target, int position) {
+        const auto& fill =
+            fills_[static_cast<std::size_t>(target)][static_cast<std::size_t>(position)];
+        if (fill && *fill == lane) return true;
+        if (node(lane.node).kind != Node::Kind::Op) return false;
+        const Home& h = home(lane.node);
+        return h.target == target && h.lane[static_cast<std::size_t>(lane.component)] == position;
+    }
+
+    Positions positions_of(int index, std::size_t operand) {
+        const Node& n = node(index);
+        const std::size_t width = n.operands[operand].lanes.size();
+        Positions result;
+        for (std::size_t k = 0; k < width; ++k)
+            result.push_back(is_dot(n.op) || is_texture_read(n.op) ? static_cast<int>(k)
+                                                                   : home(index).lane[k]);
+        return result;
+    }
+
+    void choose_homes(int index) {
+        const Node& n = node(index);
+        if (home(index).target < 0) {
+            Home& mine = home(index);
+            mine.target = new_register();
+            for (int k = 0; k < n.width; ++k) {
+                mine.lane[static_cast<std::size_t>(k)] = k;
+                occupy(mine.target, k);
+            }
+        }
+        if (is_scalar(n.op)) return;
+        for (std::size_t k = 0; k < n.operands.size(); ++k)
+            want({index, static_cast<int>(k)}, n.operands[k], positions_of(index, k),
+                 is_texture_read(n.op));
+    }
+
+    Location locate(Lane lane) {
+        const Node& n = node(lane.node);
+        if (n.kind == Node::Kind::Uniform)
+            return {VirtualSource::Kind::Uniform,
+                    uniforms_[static_cast<std::size_t>(n.slot)] + n.element, lane.component};
+        if (n.kind == Node::Kind::Input)
+            return {VirtualSource::Kind::Input, n.slot, lane.component};
+        if (n.kind == Node::Kind::Constant) return {VirtualSource::Kind::Constant, lane.node, 0};
+        const Home& h = home(lane.node);
+        return {VirtualSource::Kind::Temp, h.target,
+                h.lane[static_cast<std::size_t>(lane.component)]};
+    }
+
+    // One register and a legal swizzle that show the lanes at the positions.
+    std::optional<VirtualSource> direct(const std::vector<Lane>& list, const Positions& positions,
+                                        bool exact) {
+        VirtualSource source;
+        const Location first = locate(list[0]);
+        source.kind = first.kind;
+        if (first.kind == VirtualSource::Kind::Constant) {
+            if (exact) return std::nullopt;
+            for (std::size_t k = 0; k < list.size(); ++k) {
+                const Node& n = node(list[k].node);
+                if (n.kind != Node::Kind::Constant) return std::nullopt;
+                source.wanted.bits[static_cast<std::size_t>(positions[k])] = n.bits;
+                source.wanted.mask = static_cast<Mask>(source.wanted.mask | (1 << positions[k]));
+            }
+            return source;
+        }
+        source.index = first.index;
+        std::array<int, 4> seen{-1, -1, -1, -1};
+        for (std::size_t k = 0; k < list.size(); ++k) {
+            const Location at = locate(list[k]);
+            if (!at.same_register(first)) return std::nullopt;
+            if (exact && at.lane != positions[k]) return std::nullopt;
+            seen[static_cast<std::size_t>(positions[k])] = at.lane;
+        }
+        const auto swizzle = find_swizzle(seen, limits_);
+        if (!swizzle || (exact && first.kind == VirtualSource::Kind::Uniform)) return std::nullopt;
+        source.swizzle = *swizzle;
+        return source;
+    }
+
+    void move(int target, Mask mask, const VirtualSource& source) {
+        VirtualInstruction mov;
+        mov.target = target;
+        mov.mask = mask;
+        mov.sources = {source};
+        mov.origin = origin_;
+        code_.instructions.push_back(std::move(mov));
+    }
+
+    VirtualSource in_place(int target) {
+        VirtualSource source;
+        source.index = target;
+        return source;
+    }
+
+    // Moves the lanes that are not in `target` yet to their positions, as few movs as possible.
+    void fill(int target, const std::vector<Lane>& list, const Positions& positions) {
+        std::vector<std::size_t> rest;
+        for (std::size_t k = 0; k < list.size(); ++k)
+            if (!written_.contains({target, positions[k], list[k]}) &&
+                !at_home(list[k], target, positions[k]))
+                rest.push_back(k);
+        while (!rest.empty()) {
+            // The largest part that one mov can do.
+            std::vector<std::size_t> part;
+            for (std::size_t set = 1; set < (1u << rest.size()); ++set) {
+                std::vector<std::size_t> trial;
+                for (std::size_t j = 0; j < rest.size(); ++j)
+                    if ((set >> j & 1) != 0) trial.push_back(rest[j]);
+                if (trial.size() > part.size() && direct_part(list, positions, trial)) part = trial;
+            }
+            Mask mask = 0;
+            for (const std::size_t k : part) {
+                mask = static_cast<Mask>(mask | (1 << positions[k]));
+                written_.emplace(std::make_tuple(target, positions[k], list[k]), 0);
+                occupy(target, positions[k]);
+            }
+            move(target, mask, *direct_part(list, positions, part));
+            for (const std::size_t k : part) rest.erase(std::find(rest.begin(), rest.end(), k));
+        }
+    }
+    bool at_home(Lane lane, int target, int position) {
+        const Location at = locate(lane);
+        return at.kind == VirtualSource::Kind::Temp && at.index == target && at.lane == position;
+    }
+    std::optional<VirtualSource> direct_part(const std::vector<Lane>& list,
+                                             const Positions& positions,
+                                             const std::vector<std::size_t>& part) {
+        std::vector<Lane> lanes_of_part;
+        Positions positions_of_part;
+        for (const std::size_t k : part) {
+            lanes_of_part.push_back(list[k]);
+            positions_of_part.push_back(positions[k]);
+        }
+        return direct(lanes_of_part, positions_of_part, false);
+    }
+
+    VirtualSource resolve(std::pair<int, int> user, const Operand& operand,
+                          const Positions& positions, bool exact) {
+        std::optional<VirtualSource> source = direct(operand.lanes, positions, exact);
+        if (!source) {
+            int target = -1;
+            const auto prepared = gathers_.find(user);
+            if (prepared != gathers_.end()) {
+                target = prepared->second;
+                for (std::size_t k = 0; k < operand.lanes.size(); ++k)
+                    if (!is_at(operand.lanes[k], target, positions[k])) target = -1;
+            }
+            if (target < 0) {
+                const auto [cached, added] =
+                    copies_.try_emplace(std::make_pair(operand.lanes, positions), 0);
+                if (added) cached->second = new_register();
+                target = cached->second;
+            }
+            fill(target, operand.lanes, positions);
+            source = in_place(target);
+        }
+        source->negate = operand.negate;
+        return *source;
+    }
+
+    // A copy of an input or uniform in a temp, or of constants.
+    void copy_to_temp(VirtualSource& source) {
+        const bool negate = source.negate;
+        int target = -1;
+        if (source.kind == VirtualSource::Kind::Constant) {
+            for (const auto& [wanted, copy] : constant_copies_)
+                if (wanted == source.wanted) target = copy;
+            if (target < 0) {
+                target = new_register();
+                constant_copies_.emplace_back(source.wanted, target);
+                VirtualSource plain = source;
+                plain.negate = false;
+                lanes(target) = source.wanted.mask;
+                move(target, source.wanted.mask, plain);
+            }
+            source = in_place(target);
+        } else {
+            const auto key = std::make_pair(static_cast<int>(source.kind), source.index);
+            const auto [cached, added] = register_copies_.try_emplace(key, 0);
+            if (added) {
+                cached->second = new_register();
+                lanes(cached->second) = lanes_of_register(source);
+                VirtualSource whole;
+                whole.kind = source.kind;
+                whole.index = source.index;
+                move(cached->second, lanes_of_register(source), whole);
+            }
+            source.kind = VirtualSource::Kind::Temp;
+            source.index = cached->second;
+        }
+        source.negate = negate;
+    }
+    Mask lanes_of_register(const VirtualSource& source) {
+        for (const Node& n : graph_.nodes) {
+            if (source.kind == VirtualSource::Kind::Input && n.kind == Node::Kind::Input &&
+                n.slot == source.index)
+                return static_cast<Mask>((1 << n.width) - 1);
+            if (source.kind == VirtualSource::Kind::Uniform && n.kind == Node::Kind::Uniform &&
+                uniforms_[static_cast<std::size_t>(n.slot)] + n.element == source.index)
+                return static_cast<Mask>((1 << n.width) - 1);
+        }
+        return full_mask;
+    }
+
+    // One distinct input and one distinct c# per instruction, that in at most two operands.
+    void obey_ports(std::vector<VirtualSource>& sources) {
+        const auto is_kind = [&](std::size_t k, VirtualSource::Kind kind) {
+            return sources[k].kind == kind;
+        };
+        for (std::size_t k = 0; k < sources.size(); ++k)
+            for (std::size_t j = k + 1; j < sources.size(); ++j) {
+                if (is_kind(k, VirtualSource::Kind::Input) &&
+                    is_kind(j, VirtualSource::Kind::Input) &&
+                    sources[k].index != sources[j].index) {
+                    const auto copied = std::make_pair(static_cast<int>(VirtualSource::Kind::Input),
+                                                       sources[j].index);
+                    copy_to_temp(register_copies_.contains(copied) ? sources[j] : sources[k]);
+                }
+            }
+        const auto constant_like = [&](std::size_t k) {
+            return is_kind(k, VirtualSource::Kind::Uniform) ||
+                   is_kind(k, VirtualSource::Kind::Constant);
+        };
+        for (std::size_t k = 0; k < sources.size(); ++k)
+            for (std::size_t j = k + 1; j < sources.size(); ++j) {
+                if (!constant_like(k) || !constant_like(j)) continue;
+                const bool together =
+                    sources[k].kind == sources[j].kind &&
+                    (is_kind(k, VirtualSource::Kind::Uniform)
+                         ? sources[k].index == sources[j].index
+                         : can_share(sources[k].wanted, sources[j].wanted, limits_));
+                if (together) continue;
+                copy_to_temp(is_kind(k, VirtualSource::Kind::Uniform) ? sources[k] : sources[j]);
+            }
+        int operands = 0;
+        for (std::size_t k = 0; k < sources.size(); ++k)
+            if (constant_like(k) && ++operands > 2) copy_to_temp(sources[k]);
+    }
+
+    void emit(int index) {
+        const Node& n = node(index);
+        origin_ = n.origin;
+        VirtualInstruction instruction;
+        instruction.op = n.op;
+        instruction.target = home(index).target;
+        instruction.saturate = n.saturate;
+        instruction.origin = n.origin;
+        instruction.mask = 0;
+        for (int k = 0; k < n.width; ++k)
+            instruction.mask = static_cast<Mask>(
+                instruction.mask | (1 << home(index).lane[static_cast<std::size_t>(k)]));
+        const bool texture = is_texture_read(n.op);
+        if (texture) instruction.sampler = n.slot;
+        for (std::size_t k = 0; k < n.operands.size(); ++k) {
+            if (is_scalar(n.op)) {
+                const Location at = locate(n.operands[k].lanes[0]);
+                VirtualSource source = *direct(n.operands[k].lanes, {home(index).lane[0]}, false);
+                source.swizzle = replicate(at.lane);
+                source.negate = n.operands[k].negate;
+                instruction.sources.push_back(source);
+                continue;
+            }
+            instruction.sources.push_back(resolve({index, static_cast<int>(k)}, n.operands[k],
+                                                  positions_of(index, k), texture));
+        }
+        obey_ports(instruction.sources);
+        code_.instructions.push_back(std::move(instruction));
+    }
+
+    void emit_output(int k) {
+        const Operand& operand = graph_.outputs[static_cast<std::size_t>(k)];
+        VirtualInstruction mov;
+        mov.output = k;
+        mov.origin = origin_;
+        std::optional<VirtualSource> source = direct(operand.lanes, {0, 1, 2, 3}, false);
+        // oC# takes no swizzle: constants are pooled in order, anything else must lie in order.
+        if (source && source->kind != VirtualSource::Kind::Constant &&
+            source->swizzle != identity_swizzle)
+            source = std::nullopt;
+        mov.sources = {source && source->kind != VirtualSource::Kind::Constant
+                           ? *source
+                           : resolve_output(k, operand)};
+        code_.instructions.push_back(std::move(mov));
+    }
+    VirtualSource resolve_output(int k, const Operand& operand) {
+        if (node(operand.lanes[0].node).kind == Node::Kind::Constant &&
+            direct(operand.lanes, {0, 1, 2, 3}, false)) {
+            const int target = new_register();
+            fill(target, operand.lanes, {0, 1, 2, 3});
+            return in_place(target);
+        }
+        return resolve({-1, k}, operand, {0, 1, 2, 3}, true);
+    }
+
+    const Graph& graph_;
+    const std::vector<int>& order_;
+    const Limits& limits_;
+    const std::vector<int>& uniforms_;
+    std::vector<Home> homes_;
+    Code code_;
+    ir::Origin origin_;
+    std::vector<std::array<std::optional<Lane>, 4>> fills_;  // by register: lanes kept for movs
+    std::map<std::pair<int, int>, int> gathers_;             // by user and operand
+    std::map<std::tuple<int, int, Lane>, int> written_;      // movs done
+    std::map<std::pair<std::vector<Lane>, Positions>, int> copies_;
+    std::map<std::pair<int, int>, int> register_copies_;
+    std::vector<std::pair<Wanted, int>> constant_copies_;
+};
+
+}  // namespace
+
+Code place(const Graph& graph, const std::vector<int>& order, const Limits& limits,
+           const std::vector<int>& uniform_registers) {
+    return Placement(graph, order, limits, uniform_registers).run();
+}
+
+}  // namespace intaglio::d3d9

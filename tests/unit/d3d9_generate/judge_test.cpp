@@ -1,0 +1,32 @@
+// Direct3D's own validator accepts what the generator emits, every surface in every profile.
+#include <gtest/gtest.h>
+
+#include "generator/target/d3d9/assembly.h"
+#include "tests/judge/judge.h"
+#include "tests/unit/d3d9_generate/surfaces.h"
+
+namespace intaglio::d3d9 {
+namespace {
+
+TEST(GenerateJudge, AcceptsEveryText) {
+    judge::Batch batch;
+    std::vector<std::string> texts, names;
+    for (const Profile profile : pixel_profiles())
+        for (const Case& a_case : all_cases()) {
+            const auto program = record(a_case, profile);
+            ASSERT_TRUE(program) << program.error().message;
+            const auto shader = generate(*program, ir::Stage::Pixel, profile);
+            if (!shader) continue;
+            texts.push_back(print(*shader));
+            names.push_back(std::string(name_of(profile)) + ": " + a_case.name());
+            batch.assemble(texts.back());
+        }
+    ASSERT_GE(texts.size(), 48u);
+    const auto answers = batch.run(*judge::find());
+    ASSERT_TRUE(answers) << answers.error().message;
+    for (std::size_t i = 0; i < texts.size(); ++i)
+        EXPECT_TRUE(answers->at(i).accepted) << names[i] << "\n" << answers->at(i).text << texts[i];
+}
+
+}  // namespace
+}  // namespace intaglio::d3d9

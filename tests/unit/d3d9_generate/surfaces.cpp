@@ -1,0 +1,65 @@
+// The list of surfaces.
+#include "tests/unit/d3d9_generate/surfaces.h"
+
+#include "generator/dsl/catalogue.h"
+#include "templates/all_techniques.h"
+
+namespace intaglio::d3d9 {
+
+std::string Case::name() const {
+    std::string result = surface;
+    for (const auto& [knob, value] : knobs) result += " " + knob + "=" + value;
+    return result;
+}
+
+std::vector<Case> all_cases() {
+    using Knobs = std::vector<std::pair<std::string, std::string>>;
+    const auto steps = [](std::string low, std::string high) {
+        return Knobs{{"min_steps", std::move(low)}, {"max_steps", std::move(high)}};
+    };
+    const auto shadow = [](std::string low, std::string high) {
+        return Knobs{{"shadow_min_steps", std::move(low)}, {"shadow_max_steps", std::move(high)}};
+    };
+    std::vector<Case> cases;
+    for (const std::string output : {"", ",output=displaced"}) {
+        cases.push_back({"bump" + output, {}});
+        cases.push_back({"search=none,shadow=march" + output, shadow("4", "4")});
+        for (const std::string taps : {"1", "2", "5", "8"})
+            cases.push_back({"parallax_occlusion" + output, {{"taps", taps}}});
+        cases.push_back({"parallax_occlusion,shadow=fur_depth" + output, {{"taps", "4"}}});
+        cases.push_back({"parallax_occlusion" + output, {{"taps", "4"}, {"packed", "1"}}});
+        Knobs both = shadow("3", "3");
+        both.emplace_back("taps", "3");
+        cases.push_back({"parallax_occlusion,shadow=march" + output, both});
+        cases.push_back({"steep_parallax" + output, steps("4", "4")});
+        cases.push_back({"steep_parallax" + output, steps("8", "8")});
+        cases.push_back({"steep_parallax" + output, steps("2", "6")});
+        cases.push_back({"fur" + output, steps("6", "6")});
+    }
+    cases.push_back({"parallax_occlusion", {{"taps", "4"}, {"shininess", "2"}}});
+    cases.push_back({"parallax_occlusion", {{"taps", "3"}, {"shininess", "8"}}});
+    cases.push_back({"parallax_occlusion", {{"taps", "200"}}});
+    Case level{"steep_parallax,output=displaced", steps("4", "4")};
+    level.knobs.emplace_back("level", "2");
+    cases.push_back(level);
+    Case nyquist{"steep_parallax,output=displaced", steps("4", "4")};
+    nyquist.knobs.emplace_back("nyquist", "1");
+    cases.push_back(nyquist);
+    return cases;
+}
+
+std::vector<Profile> pixel_profiles() {
+    return {Profile::ps_2_0, Profile::ps_2_a, Profile::ps_2_b, Profile::ps_3_0};
+}
+
+Result<ir::Program> record(const Case& a_case, Profile profile) {
+    auto surface = dsl::make_surface(templates::all_techniques(), a_case.surface);
+    if (!surface) return surface.error();
+    for (const auto& [knob, value] : a_case.knobs)
+        if (const Status status = surface->set_knob(knob, value); !status) return status.error();
+    dsl::RecordOptions options;
+    options.target = name_of(profile);
+    return dsl::record_surface(*surface, options);
+}
+
+}  // namespace intaglio::d3d9

@@ -1,0 +1,25 @@
+// Surfaces and knobs that the code generator is tested on, as recorded programs.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "generator/target/d3d9/generate/generate.h"
+
+namespace intaglio::d3d9 {
+
+struct Case {
+    std::string surface;
+    std::vector<std::pair<std::string, std::string>> knobs;
+    std::string name() const;
+};
+
+// Every search, shadow and output, small and large.
+std::vector<Case> all_cases();
+std::vector<Profile> pixel_profiles();
+
+// The program as a target of this profile's name records it.
+Result<ir::Program> record(const Case& a_case, Profile profile);
+
+}  // namespace intaglio::d3d9
