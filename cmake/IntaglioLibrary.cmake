@@ -38,6 +38,8 @@ function(intaglio_test name)
   cmake_parse_arguments(arg "" "LABEL;TIMEOUT" "SOURCES;LINKS" ${ARGN})
   add_executable(test_${name} ${arg_SOURCES})
   target_link_libraries(test_${name} PRIVATE intaglio_compile_options ${arg_LINKS} GTest::gmock GTest::gtest_main)
+  # Tests compile for minutes and run for seconds.
+  target_compile_options(test_${name} PRIVATE -O1)
   if(NOT arg_LABEL)
     set(arg_LABEL unit)
   endif()
