@@ -24,8 +24,8 @@ const Target msl = {
     .legalize = {},
 };
 
-constexpr const Target* table[] = {&glsl_450, &glsl_330, &essl_300, &hlsl_5_0,
-                                   &hlsl_3_0, &spirv,    &msl,      &none};
+constexpr const Target* table[] = {&glsl_450, &glsl_330, &glsl_120, &essl_300, &essl_100, &hlsl_5_0,
+                                   &hlsl_3_0, &hlsl_2_b, &hlsl_2_0, &spirv,    &msl,      &none};
 
 }  // namespace
 

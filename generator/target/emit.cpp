@@ -25,9 +25,10 @@ passes::PipelineOptions pipeline_options(const Target& target, const EmitOptions
     return pipeline;
 }
 
-Status legalize(ir::Module& module, const Target& target, const EmitOptions& options) {
+Status legalize(ir::Module& module, const Target& target, const EmitOptions& options,
+                Notes& notes) {
     for (const LegalizingPass& pass : target.legalize) {
-        if (Status status = pass.run(module, target); !status) return status;
+        if (Status status = pass.run(module, target, notes); !status) return status;
         if (options.after_each_pass)
             options.after_each_pass(fmt::format("{}: {}", stage_word(module.stage), pass.name),
                                     module);
@@ -49,11 +50,11 @@ Result<Artifact> emit(const ir::Program& program, ir::Stage stage, const Target&
     for (const ir::Module* module : {&program.vertex, &program.pixel})
         if (Status status = ir::verify(*module); !status) return status.error();
     ir::Program legal = program;
-    Result<std::vector<std::string>> notes =
-        passes::optimize_program(legal, pipeline_options(target, options));
+    Result<Notes> notes = passes::optimize_program(legal, pipeline_options(target, options));
     if (!notes) return notes.error();
     for (ir::Module* module : {&legal.vertex, &legal.pixel})
-        if (Status status = legalize(*module, target, options); !status) return status.error();
+        if (Status status = legalize(*module, target, options, *notes); !status)
+            return status.error();
     Result<Artifact> artifact = target.print(legal, stage);
     if (artifact) artifact->notes.insert(artifact->notes.begin(), notes->begin(), notes->end());
     return artifact;
@@ -70,10 +71,10 @@ Result<Artifact> emit_function(const ir::Program& program, const Target& target,
         return input_error("target-function",
                            fmt::format("{} is not a function with one result", function.name));
     ir::Program legal = program;
-    Result<std::vector<std::string>> notes =
-        passes::optimize(legal.pixel, pipeline_options(target, options));
+    Result<Notes> notes = passes::optimize(legal.pixel, pipeline_options(target, options));
     if (!notes) return notes.error();
-    if (Status status = legalize(legal.pixel, target, options); !status) return status.error();
+    if (Status status = legalize(legal.pixel, target, options, *notes); !status)
+        return status.error();
     Result<Artifact> artifact = target.print_function(legal, binding);
     if (artifact) artifact->notes.insert(artifact->notes.begin(), notes->begin(), notes->end());
     return artifact;

@@ -8,7 +8,9 @@
 namespace intaglio {
 namespace {
 
-Status check_region(const ir::Module& module, const Target& target, const ir::Region& region) {
+// `reads`: how many texture reads were seen so far.
+Status check_region(const ir::Module& module, const Target& target, const ir::Region& region,
+                    int& reads) {
     const Capabilities& can = target.capabilities;
     for (const ir::Instruction& instruction : region.body) {
         const auto refuse = [&](std::string_view what) {
@@ -24,15 +26,26 @@ Status check_region(const ir::Module& module, const Target& target, const ir::Re
                             instruction.loop.name, instruction.loop.trip_count, target.name,
                             can.loop_trips));
         if (instruction.op == ir::Op::If && !can.branches) return refuse("branches");
-        if (ir::needs_derivatives(instruction.op) && !can.derivatives)
+        if ((instruction.op == ir::Op::Ddx || instruction.op == ir::Op::Ddy) && !can.derivatives)
             return refuse("screen-space derivatives");
+        if (ir::is_sample(instruction.op) && module.stage == ir::Stage::Vertex &&
+            !can.vertex_textures)
+            return refuse("texture reads in the vertex stage");
+        if (instruction.op == ir::Op::SampleLevel && !can.texture_levels)
+            return refuse("texture reads with a given level other than 0");
         if (instruction.op == ir::Op::SampleGrad && !can.texture_gradients)
             return refuse("texture reads with given gradients");
         if (ir::is_sample(instruction.op) && !can.volume_textures &&
             module.samplers[static_cast<std::size_t>(instruction.slot)].dimension == 3)
             return refuse("volume textures");
+        if (ir::is_sample(instruction.op) && ++reads > can.texture_reads && can.texture_reads > 0)
+            return target_limit(
+                module, instruction.origin,
+                fmt::format("{} reads textures more than {} times{}, and {} allows no more",
+                            module.name, can.texture_reads,
+                            can.loops ? "" : " once its loops are unrolled", target.name));
         for (const ir::Region& inner : instruction.regions)
-            if (Status status = check_region(module, target, inner); !status) return status;
+            if (Status status = check_region(module, target, inner, reads); !status) return status;
     }
     return Done{};
 }
@@ -47,7 +60,7 @@ Diagnostic target_limit(const ir::Module& module, const ir::Origin& origin, std:
                        known ? origin.line : 0);
 }
 
-Status check_limits(ir::Module& module, const Target& target) {
+Status check_limits(ir::Module& module, const Target& target, Notes&) {
     const auto targets = std::count_if(
         module.outputs.begin(), module.outputs.end(),
         [](const ir::Declaration& output) { return output.semantic == ir::Semantic::Target; });
@@ -63,7 +76,8 @@ Status check_limits(ir::Module& module, const Target& target) {
                     module, {},
                     fmt::format("{} is of type {}, and only floats are interpolated",
                                 declaration.name, ir::to_string(declaration.type)));
-    return check_region(module, target, module.body);
+    int reads = 0;
+    return check_region(module, target, module.body, reads);
 }
 
 }  // namespace intaglio

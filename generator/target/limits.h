@@ -7,7 +7,7 @@ namespace intaglio {
 
 // Refuses a module that asks for more than the target's language can say, naming the limit and the
 // line.
-Status check_limits(ir::Module& module, const Target& target);
+Status check_limits(ir::Module& module, const Target& target, Notes& notes);
 
 inline constexpr LegalizingPass check_limits_pass{"check_limits", check_limits};
 

@@ -14,7 +14,7 @@ void replace_in(const ir::Module& module, ir::Region& region) {
 
 }  // namespace
 
-Status replace_scalar_dots(ir::Module& module, const Target&) {
+Status replace_scalar_dots(ir::Module& module, const Target&, Notes&) {
     replace_in(module, module.body);
     return Done{};
 }

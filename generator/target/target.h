@@ -15,13 +15,16 @@
 
 namespace intaglio {
 
+// One sentence for each thing that whoever uses a text must know.
+using Notes = std::vector<std::string>;
+
 // Text ready to be written to a file, or to be given to a compiler.
 struct Artifact {
     std::string text;   // ends in a line break
     std::string entry;  // entry point, or the function's name
     ir::Stage stage = ir::Stage::Pixel;
-    std::string extension;           // ".vert", ".frag", ".vert.hlsl", ...; with the dot
-    std::vector<std::string> notes;  // what whoever uses the text must know, one sentence each
+    std::string extension;  // ".vert", ".frag", ".vert.hlsl", ...; with the dot
+    Notes notes;
 };
 
 // How a function gets what is uniform: as further parameters after its own, or as globals above it.
@@ -31,22 +34,26 @@ enum class Binding { Parameters, Globals };
 struct Capabilities {
     bool loops = true;        // loops with an exit in the middle
     bool branches = true;     // an if that skips work
-    bool derivatives = true;  // ddx, ddy and reads with an implicit level
+    bool derivatives = true;  // ddx, ddy
+    bool texture_levels = true;
     bool texture_gradients = true;
     bool volume_textures = true;
-    bool precise = false;   // a keyword forbids contraction and reassociation
-    bool functions = true;  // emit_function works
+    bool vertex_textures = true;  // texture reads in the vertex stage
+    bool precise = false;         // a keyword forbids contraction and reassociation
+    bool functions = true;        // emit_function works
     int colour_targets = 8;
-    int loop_trips = 0;  // the most iterations of one loop; 0: any
+    int loop_trips = 0;     // the most iterations of one loop; 0: any
+    int texture_reads = 0;  // the most that the text of one stage may hold; 0: any
     passes::InterpolantLimits interpolants = {};
 };
 
 struct Target;
 
-// Rewrites what the target cannot say into what it can, or refuses with a sentence.
+// Rewrites what the target cannot say into what it can, or refuses with a sentence.  What changes
+// the result is added to the notes.
 struct LegalizingPass {
     std::string_view name;
-    Status (*run)(ir::Module& module, const Target& target);
+    Status (*run)(ir::Module& module, const Target& target, Notes& notes);
 };
 
 struct Target {
@@ -79,9 +86,9 @@ struct EmitOptions {
 Result<Artifact> emit(const ir::Program& program, ir::Stage stage, const Target& target,
                       const EmitOptions& options = {});
 
-// Prints the pixel module of a program, which is of Stage::Function, as one function to paste into a shader: its inputs are the
-// parameters, its one output the return value.  Errors as for emit, and "target-function" where the
-// target has no text to paste.
+// Prints the pixel module of a program, which is of Stage::Function, as one function to paste into
+// a shader: its inputs are the parameters, its one output the return value.  Errors as for emit,
+// and "target-function" where the target has no text to paste.
 Result<Artifact> emit_function(const ir::Program& program, const Target& target, Binding binding,
                                const EmitOptions& options = {});
 

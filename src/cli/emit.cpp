@@ -75,12 +75,20 @@ Status validate(const dsl::Catalogue& catalogue, const ValidateOptions& options)
             const Result<VariantRequest> request = request_of({surface, target, options.knobs, options.loops, false});
             if (!request) return request.error();
             const Result<Variant> variant = make_variant(catalogue, *request);
+            if (!variant && options.targets.empty() && variant.error().code == "target-limit") {
+                fmt::print("{:<46} {:<10} refused: {}\n", surface, target, variant.error().message);
+                continue;
+            }
             if (!variant) return variant.error();
             const Result<Judged> judged = judge_variant(*variant);
             if (!judged) return judged.error();
             const check::SpirvCost& cost = judged->pixel_cost;
-            fmt::print("{:<46} {:<10} accepted by {} steps; {} SPIR-V instructions ({} alu, {} texture, {} branch), path {} to {}\n", surface,
-                       target, judged->steps.size(), cost.total, cost.alu, cost.texture, cost.branch, cost.shortest_path, cost.longest_path);
+            fmt::print("{:<46} {:<10} accepted by {} steps; ", surface, target, judged->steps.size());
+            if (check::has_spirv(*language_of(*variant->target)))
+                fmt::print("{} SPIR-V instructions ({} alu, {} texture, {} branch), path {} to {}\n", cost.total, cost.alu, cost.texture,
+                           cost.branch, cost.shortest_path, cost.longest_path);
+            else
+                fmt::print("no SPIR-V of this language to count\n");
             if (options.verbose)
                 for (const std::string& step : judged->steps) fmt::print("    {}\n", step);
         }

@@ -37,6 +37,15 @@ dsl::RecordOptions record_options(const VariantRequest& request) {
     return {request.target, request.loop_forms, request.per_vertex};
 }
 
+// A loop that a person wants kept is kept or refused; a technique's own schedule says what is best where there are loops.
+Status check_loops(const VariantRequest& request, const Target& target) {
+    if (target.capabilities.loops) return Done{};
+    for (const auto& [name, form] : request.loop_forms)
+        if (form == ir::LoopForm::Rolled)
+            return input_error("target-limit", fmt::format("the loop {} cannot stay a loop: {} has none", name, target.name));
+    return Done{};
+}
+
 int longest_loop_in(const ir::Region& region) {
     int most = 1;
     for (const ir::Instruction& instruction : region.body) {
@@ -56,6 +65,7 @@ Result<Variant> make_variant(const dsl::Catalogue& catalogue, const VariantReque
                              const EmitOptions& options) {
     const Result<const Target*> target = target_of(request);
     if (!target) return target.error();
+    if (Status status = check_loops(request, **target); !status) return status.error();
     const Result<dsl::Surface> surface = surface_of(catalogue, request);
     if (!surface) return surface.error();
     Result<ir::Program> program = dsl::record_surface(*surface, record_options(request));
@@ -89,6 +99,7 @@ Result<Artifact> make_function(const dsl::Catalogue& catalogue, const VariantReq
                                Binding binding, const EmitOptions& options) {
     const Result<const Target*> target = target_of(request);
     if (!target) return target.error();
+    if (Status status = check_loops(request, **target); !status) return status.error();
     const Result<dsl::Surface> surface = surface_of(catalogue, request);
     if (!surface) return surface.error();
     const Result<ir::Program> program = dsl::record_function(*surface, part, record_options(request));
@@ -98,8 +109,11 @@ Result<Artifact> make_function(const dsl::Catalogue& catalogue, const VariantReq
 
 std::optional<check::Language> language_of(const Target& target) {
     const std::string_view name = text_target(target).name;
-    for (check::Language language : {check::Language::Glsl450, check::Language::Glsl330, check::Language::Essl300,
-                                     check::Language::Hlsl5, check::Language::Hlsl3})
+    // What the profiles 2_0 and 2_b can say, 3_0 can say as well.
+    if (name == "hlsl_2_0" || name == "hlsl_2_b") return check::Language::Hlsl3;
+    for (check::Language language : {check::Language::Glsl450, check::Language::Glsl330, check::Language::Glsl120,
+                                     check::Language::Essl300, check::Language::Essl100, check::Language::Hlsl5,
+                                     check::Language::Hlsl3})
         if (check::name_of(language) == name) return language;
     return std::nullopt;
 }
@@ -113,8 +127,11 @@ check::Source source_of(const Variant& variant, ir::Stage stage) {
 }
 
 Result<check::Program> link_variant(const Variant& variant) {
-    if (!language_of(*variant.target))
+    const std::optional<check::Language> language = language_of(*variant.target);
+    if (!language)
         return input_error("not-runnable", fmt::format("target {} is a listing, not a shader that can be run", variant.target->name));
+    if (!check::has_spirv(*language))
+        return input_error("not-runnable", fmt::format("target {} cannot be run here: no tool makes SPIR-V of its language", variant.target->name));
     Result<check::Program> program =
         check::link_to_spirv(source_of(variant, ir::Stage::Vertex), source_of(variant, ir::Stage::Pixel));
     if (!program || variant.target->name != "spirv") return program;
@@ -127,7 +144,8 @@ Result<check::Program> link_variant(const Variant& variant) {
 }
 
 Result<Judged> judge_variant(const Variant& variant) {
-    if (!language_of(*variant.target))
+    const std::optional<check::Language> language = language_of(*variant.target);
+    if (!language)
         return input_error("no-witness", fmt::format("no witness reads target {}", variant.target->name));
     Judged judged;
     for (ir::Stage stage : {ir::Stage::Vertex, ir::Stage::Pixel}) {
@@ -135,7 +153,7 @@ Result<Judged> judge_variant(const Variant& variant) {
         if (!witnessed) return witnessed.error();
         const std::string_view stage_name = stage == ir::Stage::Vertex ? "vertex" : "pixel";
         for (const std::string& step : witnessed->steps) judged.steps.push_back(fmt::format("{}: {}", stage_name, step));
-        if (stage == ir::Stage::Pixel) {
+        if (stage == ir::Stage::Pixel && check::has_spirv(*language)) {
             const Result<check::SpirvCost> cost = check::count_spirv(witnessed->optimized, longest_loop(variant.program));
             if (!cost) return cost.error();
             judged.pixel_cost = *cost;
@@ -146,6 +164,7 @@ Result<Judged> judge_variant(const Variant& variant) {
             judged.steps.push_back(fmt::format("{}: {} derived", stage_name, variant.target->name));
         }
     }
+    if (!check::has_spirv(*language)) return judged;
     const Result<check::Program> linked = link_variant(variant);
     if (!linked) return linked.error();
     judged.steps.push_back("both: stages fit each other");

@@ -54,12 +54,13 @@ Result<Artifact> make_function(const dsl::Catalogue& catalogue, const VariantReq
 std::optional<check::Language> language_of(const Target& target);
 check::Source source_of(const Variant& variant, ir::Stage stage);
 
-// Both stages as SPIR-V that fit each other, ready to run.  For the target `spirv` the optimised modules.
+// Both stages as SPIR-V that fit each other, ready to run.  For the target `spirv` the optimised modules.  Error
+// "not-runnable" for `none`, and for glsl_120 and essl_100, which end after the front end.
 Result<check::Program> link_variant(const Variant& variant);
 
 struct Judged {
     std::vector<std::string> steps;  // what each witness accepted, in order
-    check::SpirvCost pixel_cost;     // of the optimised pixel stage
+    check::SpirvCost pixel_cost;     // of the optimised pixel stage; zero where the language has no SPIR-V
 };
 // Both stages through every witness there is for the target.  Error "no-witness" for a target without one.
 Result<Judged> judge_variant(const Variant& variant);

@@ -10,12 +10,28 @@ const std::vector<std::string> surfaces = {"search=none", "parallax_occlusion", 
                                            "parallax_occlusion,shadow=march", "fur"};
 constexpr measure::Direction light{35, 130};
 
-// Targets whose artifact runs: all but the listing `none`, and msl, which no driver here takes.
+// The level of every read is the hardware's choice there, so that only textures of one level give the same pixels.
+const std::vector<std::string> one_level_targets = {"hlsl_2_b", "hlsl_2_0"};
+
+// Targets whose artifact runs and says the level of each read: all but the listing `none`, the languages without SPIR-V, and
+// msl, which no driver here takes.
 std::vector<std::string> runnable_targets() {
     std::vector<std::string> names;
     for (const Target* target : all_targets())
-        if (language_of(*target) && target->name != "msl" && target->name != "glsl_450") names.emplace_back(target->name);
+        if (const auto language = language_of(*target);
+            language && check::has_spirv(*language) && target->capabilities.texture_levels && target->name != "msl" && target->name != "glsl_450")
+            names.emplace_back(target->name);
     return names;
+}
+
+// One picture with textures that have no mipmaps.
+vulkan::Picture draw_one_level(const VariantRequest& wanted, const measure::MapSet& set, measure::Direction view) {
+    const Variant variant = must(make_variant(templates::all_techniques(), wanted));
+    measure::Textures textures(set, measure::Filtering::Float);
+    for (vulkan::Texture* texture : {&textures.height, &textures.normal, &textures.colour}) texture->levels.resize(1);
+    vulkan::Program program = must(measure::prepare_quad(device(), must(link_variant(variant)), textures, test_scale, 64, 64));
+    must(measure::aim(program, view, light));
+    return must(program.draw())[0];
 }
 
 TEST(SamePixels, EveryTargetDrawsWhatGlsl450Draws) {
@@ -28,6 +44,21 @@ TEST(SamePixels, EveryTargetDrawsWhatGlsl450Draws) {
             EXPECT_TRUE(same_bits(expected[0], draw(request(surface, target), bricks, {40, 25}, light)[0]));
         }
     }
+}
+
+TEST(SamePixels, WithoutMipmapsShaderModel2DrawsWhatGlsl450Draws) {
+    const measure::MapSet bricks = map_named("bricks");
+    const Knobs steep = {{"min_steps", "4"}, {"max_steps", "14"}}, shadow = {{"shadow_min_steps", "4"}, {"shadow_max_steps", "12"}};
+    const std::vector<std::pair<std::string, Knobs>> fitting = {
+        {"search=none", {}}, {"parallax_occlusion", {}}, {"steep_parallax", steep}, {"parallax_occlusion,shadow=march", shadow}};
+    for (const auto& [surface, knobs] : fitting)
+        for (measure::Direction view : {measure::Direction{40, 25}, {12, 200}}) {
+            const vulkan::Picture expected = draw_one_level(request(surface, "glsl_450", knobs), bricks, view);
+            for (const std::string& target : one_level_targets) {
+                SCOPED_TRACE(testing::Message() << surface << " on " << target << " at elevation " << view.elevation);
+                EXPECT_TRUE(same_bits(expected, draw_one_level(request(surface, target, knobs), bricks, view)));
+            }
+        }
 }
 
 TEST(SamePixels, RolledAndUnrolledAgree) {

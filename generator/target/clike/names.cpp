@@ -96,7 +96,8 @@ std::string legal_name(std::string_view name) {
     }
     while (!legal.empty() && legal.back() == '_') legal.pop_back();
     if (legal.empty()) return legal;
-    if (std::isdigit(static_cast<unsigned char>(legal[0])) || legal.starts_with("gl_"))
+    if (std::isdigit(static_cast<unsigned char>(legal[0])) || legal.starts_with("gl_") ||
+        legal.starts_with("webgl_"))
         legal.insert(0, "n_");
     if (is_reserved(legal)) legal += "_value";
     return legal;

@@ -46,7 +46,18 @@ struct Spelling {
     std::string_view
         rolled_loop;           // stands before a loop that the schedule keeps rolled; may be empty
     std::string_view precise;  // "precise ", or empty
+    std::string_view next_index = "++%0";  // what a loop does to its index, %0
 };
+
+// The rows of two tables.
+template <std::size_t n, std::size_t m>
+constexpr std::array<OpSpelling, n + m> join(const std::array<OpSpelling, n>& a,
+                                             const std::array<OpSpelling, m>& b) {
+    std::array<OpSpelling, n + m> both{};
+    for (std::size_t i = 0; i < n; ++i) both[i] = a[i];
+    for (std::size_t i = 0; i < m; ++i) both[n + i] = b[i];
+    return both;
+}
 
 // The name of a type.
 inline std::string_view type_name(const Spelling& spelling, int scalar, int width) {

@@ -165,9 +165,10 @@ class BodyPrinter {
             scope_.declare_everywhere(free_choice ? next_index_name() : wanted);
         expressions_.name_variable(index_variable, index);
         const bool rolled = loop.loop.form == ir::LoopForm::Rolled;
-        open(fmt::format("{}for (int {} = 0; {} < {}; ++{}) {{",
-                         rolled ? spelling_.rolled_loop : "", index, index, loop.loop.trip_count,
-                         index));
+        std::string next(spelling_.next_index);
+        next.replace(next.find("%0"), 2, index);
+        open(fmt::format("{}for (int {} = 0; {} < {}; {}) {{", rolled ? spelling_.rolled_loop : "",
+                         index, index, loop.loop.trip_count, next));
         print_region(body);
         close();
         step_ = step;

@@ -12,6 +12,7 @@ namespace intaglio::glsl {
 struct Dialect {
     const Target& target;
     clike::Spelling spelling;
+    clike::Spelling vertex_spelling;
     clike::Spelling function_spelling;  // inside a host shader, which may lack extensions
     std::string_view version;
     std::string_view rolled_loop_extension;  // a line needed by spelling.rolled_loop; may be empty
@@ -21,10 +22,14 @@ struct Dialect {
     std::string_view vertex_output;
     std::string_view position;  // a line; may be empty
     std::string_view pixel_input;
-    std::string_view colour_target;
+    std::string_view colour_target;  // empty: gl_FragColor, or gl_FragData of several
     std::string_view sampler;
     std::string_view
         uniform_block;  // {0} binding, {1} name, ends in "{"; empty: uniforms are loose
+    // Lines needed by reads with gradients, by those with a level outside the vertex stage, and by
+    // ddx and ddy; empty: the language has them.
+    std::string_view explicit_read_extension = {};
+    std::string_view derivative_extension = {};
 };
 
 Result<Artifact> print_stage(const Dialect& dialect, const ir::Program& program, ir::Stage stage);

@@ -68,12 +68,37 @@ bool stages_share_a_uniform(const ir::Program& program) {
     });
 }
 
+bool contains(const ir::Region& region, bool (*wanted)(ir::Op)) {
+    return std::any_of(
+        region.body.begin(), region.body.end(), [&](const ir::Instruction& instruction) {
+            return wanted(instruction.op) ||
+                   std::any_of(instruction.regions.begin(), instruction.regions.end(),
+                               [&](const ir::Region& inner) { return contains(inner, wanted); });
+        });
+}
+
+// The lines that what the module reads and derives needs before everything else.
+std::vector<std::string_view> extensions(const Dialect& dialect, const ir::Module& module) {
+    std::vector<std::string_view> lines;
+    const bool vertex = module.stage == ir::Stage::Vertex;
+    const auto gradient = [](ir::Op op) { return op == ir::Op::SampleGrad; };
+    const auto level = [](ir::Op op) { return op == ir::Op::SampleLevel; };
+    const auto derivative = [](ir::Op op) { return op == ir::Op::Ddx || op == ir::Op::Ddy; };
+    if (!dialect.explicit_read_extension.empty() &&
+        (contains(module.body, gradient) || (!vertex && contains(module.body, level))))
+        lines.push_back(dialect.explicit_read_extension);
+    if (!dialect.derivative_extension.empty() && contains(module.body, derivative))
+        lines.push_back(dialect.derivative_extension);
+    return lines;
+}
+
 void put_head(TextBuilder& out, const Dialect& dialect, const ir::Program& program,
               ir::Stage stage) {
     const ir::Module& module = clike::stage_of(program, stage);
     out.line(dialect.version);
     if (!dialect.rolled_loop_extension.empty() && clike::has_rolled_loop(module.body))
         out.line(dialect.rolled_loop_extension);
+    for (std::string_view line : extensions(dialect, module)) out.line(line);
     out.line();
     clike::put_header(out, program, stage, dialect.target);
     out.line();
@@ -85,6 +110,18 @@ void put_head(TextBuilder& out, const Dialect& dialect, const ir::Program& progr
             break;
         }
     out.line();
+}
+
+// gl_FragColor and gl_FragData[n] are vec4; a narrower target writes the first components.
+std::string built_in_target(const ir::Module& module, int location, ir::Type type) {
+    const auto targets = std::count_if(
+        module.outputs.begin(), module.outputs.end(),
+        [](const ir::Declaration& output) { return output.semantic == ir::Semantic::Target; });
+    const std::string name =
+        targets == 1 ? "gl_FragColor" : fmt::format("gl_FragData[{}]", location);
+    if (type.width == 4) return name;
+    return fmt::format("{}.{}", name,
+                       std::string_view("xyz").substr(0, static_cast<std::size_t>(type.width)));
 }
 
 // Declares inputs; their names as the body reads them.
@@ -114,18 +151,26 @@ std::vector<std::string> put_outputs(TextBuilder& out, const Dialect& dialect,
                                      const clike::InterfaceNames& interface) {
     std::vector<std::string> names;
     int location = 0;
+    bool declared = false;
     for (const ir::Declaration& output : module.outputs) {
         if (output.semantic == ir::Semantic::Position) {
             names.push_back("gl_Position");
-            if (!dialect.position.empty()) out.line(dialect.position);
+            if (dialect.position.empty()) continue;
+            out.line(dialect.position);
+            declared = true;
             continue;
         }
         const bool colour = output.semantic == ir::Semantic::Target;
+        if (colour && dialect.colour_target.empty()) {
+            names.push_back(built_in_target(module, location++, output.type));
+            continue;
+        }
         names.push_back(interface.of(colour ? Kind::Target : Kind::Interpolant, output.name));
         out.line(fill(colour ? dialect.colour_target : dialect.vertex_output, location++,
                       type_of(dialect, output.type), names.back()));
+        declared = true;
     }
-    if (!names.empty()) out.line();
+    if (declared) out.line();
     return names;
 }
 
@@ -174,8 +219,8 @@ Result<Artifact> print_stage(const Dialect& dialect, const ir::Program& program,
     out.line("void main() {");
     out.indent();
     scope.open();
-    if (Status status = clike::print_body(out, module, dialect.spelling, outer, ending, scope);
-        !status)
+    const clike::Spelling& spelling = vertex ? dialect.vertex_spelling : dialect.spelling;
+    if (Status status = clike::print_body(out, module, spelling, outer, ending, scope); !status)
         return status.error();
     out.outdent();
     out.line("}");
@@ -197,6 +242,8 @@ Result<Artifact> print_function(const Dialect& dialect, const ir::Program& progr
 
     TextBuilder out;
     clike::put_header(out, program, ir::Stage::Function, dialect.target);
+    for (std::string_view line : extensions(dialect, function))
+        clike::put_comment(out, fmt::format("The shader around it needs: {}", line));
     std::vector<std::string> parameters;
     for (std::size_t i = 0; i < outer.inputs.size(); ++i)
         parameters.push_back(

@@ -8,6 +8,7 @@
 #include "generator/target/hlsl/dialect.h"
 #include "generator/target/limits.h"
 #include "generator/target/replace_scalar_dots.h"
+#include "generator/target/use_hardware_levels.h"
 
 namespace intaglio {
 namespace {
@@ -67,17 +68,15 @@ constexpr std::array reads_3_0 = std::to_array<clike::OpSpelling>({
     {Op::SampleImplicit, "tex3D(%s, %0)", Binds::Postfix, {}, 3},
 });
 
-template <std::size_t n, std::size_t m>
-constexpr std::array<clike::OpSpelling, n + m> join(const std::array<clike::OpSpelling, n>& a,
-                                                    const std::array<clike::OpSpelling, m>& b) {
-    std::array<clike::OpSpelling, n + m> both{};
-    for (std::size_t i = 0; i < n; ++i) both[i] = a[i];
-    for (std::size_t i = 0; i < m; ++i) both[n + i] = b[i];
-    return both;
-}
+// The level is the hardware's choice.
+constexpr std::array reads_2_x = std::to_array<clike::OpSpelling>({
+    {Op::SampleImplicit, "tex2D(%s, %0)", Binds::Postfix, {}, 2},
+    {Op::SampleImplicit, "tex3D(%s, %0)", Binds::Postfix, {}, 3},
+});
 
-constexpr std::array ops_5_0 = join(common_ops, reads_5_0);
-constexpr std::array ops_3_0 = join(common_ops, reads_3_0);
+constexpr std::array ops_5_0 = clike::join(common_ops, reads_5_0);
+constexpr std::array ops_3_0 = clike::join(common_ops, reads_3_0);
+constexpr std::array ops_2_x = clike::join(common_ops, reads_2_x);
 
 constexpr clike::Spelling spelling(std::span<const clike::OpSpelling> ops,
                                    std::string_view float_from_bits) {
@@ -103,15 +102,29 @@ const hlsl::Dialect dialect_5_0 = {
 
 // In ps_3_0 a position input would be the pixel's own (VPOS), and takes no part in linking the
 // stages.
-const hlsl::Dialect dialect_3_0 = {
-    .target = hlsl_3_0,
-    .spelling = spelling(ops_3_0, {}),
-    .texture = "sampler{2}D {1} : register(s{0});",
-    .sampler_state = {},
-    .texture_parameter = "sampler{2}D {1}",
-    .uniform_block = {},
-    .pixel_position = {},
-};
+constexpr hlsl::Dialect direct3d_9_dialect(const Target& target,
+                                           std::span<const clike::OpSpelling> ops) {
+    return {.target = target,
+            .spelling = spelling(ops, {}),
+            .texture = "sampler{2}D {1} : register(s{0});",
+            .sampler_state = {},
+            .texture_parameter = "sampler{2}D {1}",
+            .uniform_block = {},
+            .pixel_position = {}};
+}
+
+const hlsl::Dialect dialect_3_0 = direct3d_9_dialect(hlsl_3_0, ops_3_0);
+
+// Slots are scarce here, and fxc pays for `precise` with them: 66 arithmetic instead of 57 for the
+// eight taps of parallax occlusion, where ps_2_0 has 64.
+constexpr hlsl::Dialect shader_model_2_dialect(const Target& target) {
+    hlsl::Dialect made = direct3d_9_dialect(target, ops_2_x);
+    made.spelling.precise = {};
+    return made;
+}
+
+const hlsl::Dialect dialect_2_b = shader_model_2_dialect(hlsl_2_b);
+const hlsl::Dialect dialect_2_0 = shader_model_2_dialect(hlsl_2_0);
 
 template <const hlsl::Dialect& dialect>
 Result<Artifact> print(const ir::Program& program, ir::Stage stage) {
@@ -126,6 +139,21 @@ Result<Artifact> print_function(const ir::Program& program, Binding binding) {
 // loop_trips of hlsl_3_0: `rep` counts to 255, and fxc silently ends a longer loop with an early
 // exit there; one without an exit it refuses from 255 on (X3569).
 constexpr LegalizingPass legalizing[] = {check_limits_pass, replace_scalar_dots_pass};
+constexpr LegalizingPass legalizing_2_x[] = {use_hardware_levels_pass, check_limits_pass,
+                                             replace_scalar_dots_pass};
+
+// What the profiles 2_0 and 2_b cannot say at all; the compiler counts the other slots.
+constexpr Capabilities shader_model_2(int texture_reads) {
+    return {.loops = false,
+            .branches = false,
+            .derivatives = false,
+            .texture_levels = false,
+            .texture_gradients = false,
+            .vertex_textures = false,
+            .colour_targets = 4,
+            .texture_reads = texture_reads,
+            .interpolants = {8, 32}};
+}
 
 }  // namespace
 
@@ -150,6 +178,26 @@ const Target hlsl_3_0 = {
     .legalize = legalizing,
     .print = print<dialect_3_0>,
     .print_function = print_function<dialect_3_0>,
+};
+
+const Target hlsl_2_b = {
+    .name = "hlsl_2_b",
+    .description = "HLSL for vs_2_0 and ps_2_b (Direct3D 9): no loops, no branches, plain tex2D",
+    .derived_from = {},
+    .capabilities = shader_model_2(512),
+    .legalize = legalizing_2_x,
+    .print = print<dialect_2_b>,
+    .print_function = print_function<dialect_2_b>,
+};
+
+const Target hlsl_2_0 = {
+    .name = "hlsl_2_0",
+    .description = "HLSL for vs_2_0 and ps_2_0 (Direct3D 9): as hlsl_2_b, 32 texture reads",
+    .derived_from = {},
+    .capabilities = shader_model_2(32),
+    .legalize = legalizing_2_x,
+    .print = print<dialect_2_0>,
+    .print_function = print_function<dialect_2_0>,
 };
 
 }  // namespace intaglio

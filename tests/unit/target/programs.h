@@ -22,11 +22,19 @@ struct TextTarget {
     check::Language language;
 };
 
-inline constexpr TextTarget text_targets[] = {{"glsl_450", check::Language::Glsl450},
-                                              {"glsl_330", check::Language::Glsl330},
-                                              {"essl_300", check::Language::Essl300},
-                                              {"hlsl_5_0", check::Language::Hlsl5},
-                                              {"hlsl_3_0", check::Language::Hlsl3}};
+inline constexpr TextTarget text_targets[] = {
+    {"glsl_450", check::Language::Glsl450}, {"glsl_330", check::Language::Glsl330},
+    {"glsl_120", check::Language::Glsl120}, {"essl_300", check::Language::Essl300},
+    {"essl_100", check::Language::Essl100}, {"hlsl_5_0", check::Language::Hlsl5},
+    {"hlsl_3_0", check::Language::Hlsl3},   {"hlsl_2_b", check::Language::Hlsl3},
+    {"hlsl_2_0", check::Language::Hlsl3}};
+
+// The front end, and where the language has SPIR-V, the validator.
+inline Status accepted(const check::Source& source) {
+    if (!check::has_spirv(source.language)) return check::parse(source);
+    const auto words = check::to_spirv(source);
+    return words.ok() ? Status(Done{}) : Status(words.error());
+}
 
 // Reads a module whose values are called by words; one that begins with "_" is to have no name.
 inline ir::Module parsed(std::string_view text) {
