@@ -22,6 +22,7 @@ class Allocator {
           limits_(limits),
           intervals_(code.lanes.size()),
           budget_(code.lanes.size()),
+          allowed_(code.instructions.size()),
           registers_(static_cast<std::size_t>(limits.temps)) {
         result_.places.resize(code.lanes.size());
     }
@@ -37,6 +38,7 @@ class Allocator {
   private:
     struct Register {
         std::array<std::vector<Interval>, 4> busy;
+        std::vector<std::size_t> residents;  // virtual registers that were given it
         int order = 0;
         bool written = false;
     };
@@ -80,6 +82,7 @@ class Allocator {
             const VirtualInstruction& instruction = code_.instructions[i];
             if (instruction.target < 0) continue;
             const int mine = budget_[static_cast<std::size_t>(instruction.target)];
+            allowed_[i] = mine;
             for (const VirtualSource& source : instruction.sources) {
                 if (source.kind != VirtualSource::Kind::Temp) continue;
                 int& theirs = budget_[static_cast<std::size_t>(source.index)];
@@ -115,6 +118,13 @@ class Allocator {
         }
         return true;
     }
+    // What lives there and is read later must not come to wait for more than it may.
+    bool disturbs(const Register& candidate, int order, int now) const {
+        for (const std::size_t resident : candidate.residents)
+            for (const Interval& interval : intervals_[resident])
+                if (interval.end > 2 * now + 1 && order > budget_[resident]) return true;
+        return false;
+    }
     int busy_lanes(const Register& candidate, int time) const {
         int count = 0;
         for (const auto& lane : candidate.busy)
@@ -141,7 +151,9 @@ class Allocator {
                 if (movable && (moved == 0 || moved > full_mask)) continue;
                 if (!is_free(candidate, wanted, mask, shift)) continue;
                 any_free = true;
-                if (order_after(instruction, candidate) > budget_[target]) continue;
+                const int order = order_after(instruction, candidate);
+                if (order > allowed_[static_cast<std::size_t>(now)]) continue;
+                if (order > candidate.order && disturbs(candidate, order, now)) continue;
                 const std::array<int, 3> score = {candidate.order, candidate.written ? 1 : 0,
                                                   busy_lanes(candidate, 2 * now + 1)};
                 if (best >= 0 && score <= best_score) continue;
@@ -154,13 +166,15 @@ class Allocator {
             result_.failure =
                 any_free ? AllocationFailure::DependentReads : AllocationFailure::Temps;
             // With more registers there would always be a fresh one, unless even that is too late.
-            if (any_free && order_after(instruction, Register{}) <= budget_[target])
+            if (any_free &&
+                order_after(instruction, Register{}) <= allowed_[static_cast<std::size_t>(now)])
                 result_.failure = AllocationFailure::Temps;
             result_.failed_at = now;
             return false;
         }
         result_.places[target] = {best, best_shift, std::countr_zero(static_cast<unsigned>(mask))};
         Register& chosen = registers_[static_cast<std::size_t>(best)];
+        chosen.residents.push_back(target);
         for (int k = 0; k < 4; ++k)
             if ((mask >> k & 1) != 0)
                 chosen.busy[static_cast<std::size_t>(k + best_shift)].push_back(
@@ -176,7 +190,7 @@ class Allocator {
         Register& into = registers_[static_cast<std::size_t>(result_.places[target].number)];
         into.order = order_after(instruction, into);
         into.written = true;
-        if (into.order <= budget_[target]) return;
+        if (into.order <= allowed_[static_cast<std::size_t>(now)]) return;
         result_.failure = AllocationFailure::DependentReads;
         result_.failed_at = now;
     }
@@ -184,7 +198,8 @@ class Allocator {
     const Code& code_;
     const Limits& limits_;
     std::vector<Lanes> intervals_;
-    std::vector<int> budget_;
+    std::vector<int> budget_;   // by virtual register, by the reads seen so far from the end
+    std::vector<int> allowed_;  // by instruction: the highest order that its target may have then
     std::vector<Register> registers_;
     Allocation result_;
 };

@@ -78,6 +78,22 @@ Candidate try_orders(const ir::Module& module, const Graph& graph, Profile profi
     return std::move(*best);
 }
 
+// How many joins may be given up for registers.
+constexpr std::size_t most_given_up = 8;
+
+// Joining lengthens lives: what got no registers may fit with a few joins less.
+Candidate cheapest_fitting(const ir::Module& module, const std::vector<Graph>& packings,
+                           Profile profile) {
+    std::optional<Candidate> best;
+    const std::size_t last = packings.size() > most_given_up ? packings.size() - most_given_up : 0;
+    for (std::size_t i = packings.size(); i-- > last;) {
+        Candidate candidate = try_orders(module, packings[i], profile);
+        if (!best || better(candidate, *best)) best = std::move(candidate);
+        if (best->fits()) break;
+    }
+    return std::move(*best);
+}
+
 Result<Candidate> attempt(const ir::Program& program, Profile profile, passes::FirstHitForm form) {
     std::vector<std::string> notes;
     auto straight = straighten(program, form, notes);
@@ -88,12 +104,13 @@ Result<Candidate> attempt(const ir::Program& program, Profile profile, passes::F
     const Limits& limits = limits_of(profile);
     int next = 0;
     const std::vector<int> uniforms = assign_uniforms(module, *graph, next);
-    const std::vector<Graph> packings = pack(*graph, limits, uniforms, evaluations_for(*graph));
     std::optional<Candidate> best;
-    for (std::size_t i = packings.size(); i-- > 0;) {
-        Candidate candidate = try_orders(module, packings[i], profile);
+    const Graph wide = with_wide_output(*graph);
+    if (cost_of(wide, limits, uniforms) < cost_of(*graph, limits, uniforms)) *graph = wide;
+    for (const std::vector<Graph>& packings :
+         pack(*graph, limits, uniforms, evaluations_for(*graph))) {
+        Candidate candidate = cheapest_fitting(module, packings, profile);
         if (!best || better(candidate, *best)) best = std::move(candidate);
-        if (best->fits()) break;
     }
     best->notes = std::move(notes);
     return std::move(*best);

@@ -19,4 +19,10 @@ Result<Graph> lower(const ir::Module& module, Profile profile, std::vector<std::
 // on the hardware of the profiles.
 void simplify(Graph& graph);
 
+// Moves constants, common terms and common factors to where they save slots; rounding differs.
+void reassociate(Graph& graph);
+
+// A constant component of an output computed together with a sum that is its neighbour.
+Graph with_wide_output(const Graph& graph);
+
 }  // namespace intaglio::d3d9

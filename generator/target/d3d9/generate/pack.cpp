@@ -21,6 +21,19 @@ bool may_join(const Node& a, const Node& b) {
            is_componentwise(a.op) && a.width + b.width <= 4;
 }
 
+// Where a component is bound to lie, whatever placement does: texels, inputs and uniforms.
+bool is_bound(const Node& node) {
+    return node.kind == Node::Kind::Input || node.kind == Node::Kind::Uniform ||
+           (node.kind == Node::Kind::Op && is_texture_read(node.op));
+}
+// Joined operands from two such places would have to be moved together, which saves nothing.
+bool is_hopeless(const Graph& graph, const Operand& a, const Operand& b) {
+    for (const Lane x : a.lanes)
+        for (const Lane y : b.lanes)
+            if (x.node != y.node && is_bound(graph.node(x)) && is_bound(graph.node(y))) return true;
+    return false;
+}
+
 // Appends b to a; false if signs do not agree.
 bool join(Graph& graph, int a, int b, bool swapped) {
     Node second = graph.nodes[static_cast<std::size_t>(b)];
@@ -29,7 +42,7 @@ bool join(Graph& graph, int a, int b, bool swapped) {
     for (std::size_t k = 0; k < first.operands.size(); ++k) {
         Operand& into = first.operands[k];
         Operand& from = second.operands[k];
-        if (into.negate != from.negate) return false;
+        if (into.negate != from.negate || is_hopeless(graph, into, from)) return false;
         into.lanes.insert(into.lanes.end(), from.lanes.begin(), from.lanes.end());
     }
     const int shift = first.width;
@@ -57,33 +70,86 @@ int cost_of(const Graph& graph, const Limits& limits, const std::vector<int>& un
     return slots;
 }
 
-std::vector<Graph> pack(const Graph& graph, const Limits& limits,
-                        const std::vector<int>& uniform_registers, int evaluations) {
-    std::vector<Graph> steps = {graph};
-    int cost = cost_of(graph, limits, uniform_registers);
-    for (bool changed = true; changed && evaluations > 0;) {
-        changed = false;
-        const int count = static_cast<int>(graph.nodes.size());
-        for (int a = 0; a < count; ++a)
-            for (int b = 0; b < count; ++b) {
-                const Graph& current = steps.back();
-                if (a == b || evaluations <= 0) continue;
-                const Node& first = current.nodes[static_cast<std::size_t>(a)];
-                if (!may_join(first, current.nodes[static_cast<std::size_t>(b)])) continue;
-                for (int swapped = 0; swapped < (commutes(first.op) ? 2 : 1); ++swapped) {
-                    Graph trial = current;
-                    if (!join(trial, a, b, swapped != 0)) continue;
-                    --evaluations;
-                    const int price = cost_of(trial, limits, uniform_registers);
-                    if (price >= cost) continue;
-                    cost = price;
-                    steps.push_back(std::move(trial));
-                    changed = true;
-                    break;
-                }
-            }
+namespace {
+
+// Which instructions one sweep joins, and in which order it looks at them.
+struct Sweep {
+    std::uint64_t ops;  // bit: Opcode
+    bool backwards = false;
+};
+constexpr std::uint64_t op_bit(Opcode op) { return std::uint64_t{1} << static_cast<unsigned>(op); }
+constexpr std::uint64_t choices = op_bit(Opcode::Cmp);
+constexpr std::uint64_t extremes = op_bit(Opcode::Max) | op_bit(Opcode::Min);
+constexpr std::uint64_t everything = ~std::uint64_t{0};
+
+class Packing {
+  public:
+    Packing(const Graph& graph, const Limits& limits, const std::vector<int>& uniform_registers,
+            int evaluations)
+        : limits_(limits),
+          uniforms_(uniform_registers),
+          most_(evaluations),
+          steps_{graph},
+          cost_(cost_of(graph, limits, uniform_registers)) {}
+
+    void sweep(const Sweep& how) {
+        evaluations_ = most_;
+        const int count = static_cast<int>(steps_.back().nodes.size());
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (int a = 0; a < count; ++a)
+                for (int b = a + 1; b < count; ++b)
+                    changed = try_pair(how.backwards ? count - 1 - a : a,
+                                       how.backwards ? count - 1 - b : b, how.ops) ||
+                              changed;
+        }
     }
-    return steps;
+    std::vector<Graph> take() { return std::move(steps_); }
+
+  private:
+    bool try_pair(int a, int b, std::uint64_t ops) {
+        const Node& first = steps_.back().nodes[static_cast<std::size_t>(a)];
+        if (a == b || evaluations_ <= 0 || (ops & op_bit(first.op)) == 0 ||
+            !may_join(first, steps_.back().nodes[static_cast<std::size_t>(b)]))
+            return false;
+        for (int swapped = 0; swapped < (commutes(first.op) ? 2 : 1); ++swapped) {
+            Graph trial = steps_.back();
+            if (!join(trial, a, b, swapped != 0)) continue;
+            --evaluations_;
+            const int price = cost_of(trial, limits_, uniforms_);
+            if (price >= cost_) continue;
+            cost_ = price;
+            steps_.push_back(std::move(trial));
+            return true;
+        }
+        return false;
+    }
+
+    const Limits& limits_;
+    const std::vector<int>& uniforms_;
+    int most_, evaluations_ = 0;
+    std::vector<Graph> steps_;
+    int cost_;
+};
+
+// Greedy joining depends on its order: which comes first decides what still fits together.
+const std::vector<Sweep> plans[] = {
+    {{choices}, {extremes}, {everything}},
+    {{choices, true}, {extremes, true}, {everything, true}},
+    {{everything}},
+};
+
+}  // namespace
+
+std::vector<std::vector<Graph>> pack(const Graph& graph, const Limits& limits,
+                                     const std::vector<int>& uniform_registers, int evaluations) {
+    std::vector<std::vector<Graph>> result;
+    for (const std::vector<Sweep>& plan : plans) {
+        Packing packing(graph, limits, uniform_registers, evaluations);
+        for (const Sweep& sweep : plan) packing.sweep(sweep);
+        result.push_back(packing.take());
+    }
+    return result;
 }
 
 }  // namespace intaglio::d3d9

@@ -104,6 +104,8 @@ void simplify(Graph& graph) {
             if (live[i] == 0) graph.nodes[i].operands.clear();
     };
     drop_dead();
+    reassociate(graph);
+    drop_dead();
     form_saturations(graph);
     drop_dead();
 }

@@ -1,0 +1,180 @@
+// Algebra that saves slots where its pattern occurs; each rule changes rounding alone.
+#include <algorithm>
+
+#include "generator/target/d3d9/generate/lower.h"
+
+namespace intaglio::d3d9 {
+namespace {
+
+class Rules {
+  public:
+    explicit Rules(Graph& graph) : graph_(graph), users_(count_users(graph)) {}
+
+    void run() {
+        // Nodes that rules add are done already.
+        const std::size_t count = graph_.nodes.size();
+        for (std::size_t i = 0; i < count; ++i) {
+            constant_last(static_cast<int>(i));
+            common_term_of_choice(static_cast<int>(i));
+            common_factor(static_cast<int>(i));
+        }
+    }
+    // A constant beside a sum in an output, as one instruction: (a + x, c) = x (1, 0) + (a, c).
+    void widen_output() {
+        for (Operand& output : graph_.outputs)
+            for (std::size_t j = 0; j < output.lanes.size(); ++j)
+                for (std::size_t k = 0; k < output.lanes.size(); ++k)
+                    if (widen(output, j, k)) return;
+    }
+
+  private:
+    bool widen(Operand& output, std::size_t j, std::size_t k) {
+        const int index = output.lanes[j].node;
+        const Lane constant_lane = output.lanes[k];
+        if (graph_.node(constant_lane).kind != Node::Kind::Constant || !is_op(index, Opcode::Add) ||
+            at(index).width != 1 || users_[static_cast<std::size_t>(index)] != 1)
+            return false;
+        for (std::size_t side = 0; side < 2; ++side) {
+            const Operand a = at(index).operands[side], x = at(index).operands[1 - side];
+            if (!is_constant(a) || a.negate || is_constant(x)) continue;
+            const Lane one{constant(0x3F800000u), 0}, zero{constant(0), 0};
+            at(index).op = Opcode::Mad;
+            at(index).width = 2;
+            at(index).operands = {{{x.lanes[0], x.lanes[0]}, x.negate},
+                                  {{one, zero}, false},
+                                  {{a.lanes[0], constant_lane}, false}};
+            output.lanes[k] = {index, 1};
+            return true;
+        }
+        return false;
+    }
+
+    Node& at(int index) { return graph_.nodes[static_cast<std::size_t>(index)]; }
+    int add(Node node) {
+        graph_.nodes.push_back(std::move(node));
+        users_.push_back(1);
+        return static_cast<int>(graph_.nodes.size()) - 1;
+    }
+    bool is_op(int index, Opcode op) {
+        const Node& node = at(index);
+        return node.kind == Node::Kind::Op && node.op == op && !node.saturate &&
+               !node.operands.empty();
+    }
+    // The node that alone gives the operand, component for component, and that nothing else reads.
+    int own(const Operand& operand, Opcode op) {
+        const int index = operand.lanes[0].node;
+        if (!is_op(index, op) || users_[static_cast<std::size_t>(index)] != 1) return -1;
+        if (at(index).width != static_cast<int>(operand.lanes.size())) return -1;
+        for (std::size_t k = 0; k < operand.lanes.size(); ++k)
+            if (operand.lanes[k] != Lane{index, static_cast<int>(k)}) return -1;
+        return index;
+    }
+    bool is_constant(const Operand& operand) const {
+        return std::all_of(operand.lanes.begin(), operand.lanes.end(), [&](Lane lane) {
+            return graph_.node(lane).kind == Node::Kind::Constant;
+        });
+    }
+    bool is_uniform(const Operand& operand) const {
+        return std::all_of(operand.lanes.begin(), operand.lanes.end(), [&](Lane lane) {
+            return graph_.node(lane).kind == Node::Kind::Uniform;
+        });
+    }
+    // With the other sign, if so; constants take theirs in.
+    Operand signed_by(Operand operand, bool flip) {
+        operand.negate = operand.negate != flip;
+        if (!operand.negate || !is_constant(operand)) return operand;
+        operand.negate = false;
+        for (Lane& lane : operand.lanes) lane = {constant(graph_.node(lane).bits ^ 0x80000000u), 0};
+        return operand;
+    }
+    int constant(std::uint32_t bits) {
+        for (std::size_t i = 0; i < graph_.nodes.size(); ++i)
+            if (graph_.nodes[i].kind == Node::Kind::Constant && graph_.nodes[i].bits == bits)
+                return static_cast<int>(i);
+        Node node;
+        node.kind = Node::Kind::Constant;
+        node.bits = bits;
+        return add(std::move(node));
+    }
+
+    // x + s (y + c) = (x + s y) + s c: the constant moves out, to meet others.
+    void constant_last(int index) {
+        if (!is_op(index, Opcode::Add)) return;
+        for (std::size_t side = 0; side < 2; ++side) {
+            const Operand inner = at(index).operands[side], x = at(index).operands[1 - side];
+            const int sum = own(inner, Opcode::Add);
+            if (sum < 0 || is_constant(x)) continue;
+            for (std::size_t k = 0; k < 2; ++k) {
+                const Operand c = at(sum).operands[k], y = at(sum).operands[1 - k];
+                if (!is_constant(c) || is_constant(y)) continue;
+                at(sum).operands = {x, signed_by(y, inner.negate)};
+                at(index).operands = {{inner.lanes, false}, signed_by(c, inner.negate)};
+                return;
+            }
+        }
+    }
+
+    // g >= 0 ? x + c : y + c  =  (g >= 0 ? x : y) + c
+    void common_term_of_choice(int index) {
+        if (!is_op(index, Opcode::Cmp)) return;
+        const Node choice = at(index);
+        if (choice.operands[1].negate || choice.operands[2].negate) return;
+        const int a = own(choice.operands[1], Opcode::Add),
+                  b = own(choice.operands[2], Opcode::Add);
+        if (a < 0 || b < 0) return;
+        for (std::size_t i = 0; i < 2; ++i)
+            for (std::size_t k = 0; k < 2; ++k) {
+                const Operand c = at(a).operands[i];
+                if (!is_constant(c) || c != at(b).operands[k]) continue;
+                Node inner = choice;
+                inner.operands[1] = at(a).operands[1 - i];
+                inner.operands[2] = at(b).operands[1 - k];
+                Operand chosen;
+                const int made = add(std::move(inner));
+                for (int j = 0; j < choice.width; ++j) chosen.lanes.push_back({made, j});
+                at(index).op = Opcode::Add;
+                at(index).operands = {chosen, c};
+                return;
+            }
+    }
+
+    // x (u d + v) + u s = u (x d + s) + x v for uniforms u and v, which no instruction may read
+    // both.
+    void common_factor(int index) {
+        if (!is_op(index, Opcode::Mad)) return;
+        const Node outer = at(index);
+        const int tail = own(outer.operands[2], Opcode::Mul);
+        if (tail < 0 || outer.operands[2].negate) return;
+        for (std::size_t side = 0; side < 2; ++side) {
+            const Operand factor = outer.operands[side], x = outer.operands[1 - side];
+            const int inner = own(factor, Opcode::Mad);
+            if (inner < 0 || factor.negate || !is_uniform(at(inner).operands[2])) continue;
+            for (std::size_t i = 0; i < 2; ++i)
+                for (std::size_t k = 0; k < 2; ++k) {
+                    const Operand u = at(inner).operands[i];
+                    if (!is_uniform(u) || u != at(tail).operands[k]) continue;
+                    const Operand d = at(inner).operands[1 - i], v = at(inner).operands[2];
+                    const Operand s = at(tail).operands[1 - k];
+                    at(inner).operands = {x, d, s};
+                    at(tail).operands = {x, v};
+                    at(index).operands = {u, {factor.lanes, false}, outer.operands[2]};
+                    return;
+                }
+        }
+    }
+
+    Graph& graph_;
+    std::vector<int> users_;
+};
+
+}  // namespace
+
+void reassociate(Graph& graph) { Rules(graph).run(); }
+
+Graph with_wide_output(const Graph& graph) {
+    Graph result = graph;
+    Rules(result).widen_output();
+    return result;
+}
+
+}  // namespace intaglio::d3d9
