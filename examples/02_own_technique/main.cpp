@@ -1,4 +1,5 @@
-// Intaglio's command line with one technique more: every target, check, picture and measurement works for it.
+// Intaglio's command line with one technique more: every target, check, picture and measurement
+// works for it.
 #include "bisection.h"
 #include "src/cli/command_line.h"
 #include "templates/all_techniques.h"

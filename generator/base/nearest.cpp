@@ -40,9 +40,11 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
     return best;
 }
 
-std::string unknown_name_sentence(std::string_view kind, std::string_view name, std::span<const std::string> candidates) {
+std::string unknown_name_sentence(std::string_view kind, std::string_view name,
+                                  std::span<const std::string> candidates) {
     const std::string nearest = nearest_name(name, candidates);
-    if (!nearest.empty()) return fmt::format("unknown {} '{}'; did you mean '{}'?", kind, name, nearest);
+    if (!nearest.empty())
+        return fmt::format("unknown {} '{}'; did you mean '{}'?", kind, name, nearest);
     std::string list;
     for (const std::string& candidate : candidates) list += (list.empty() ? "" : ", ") + candidate;
     return fmt::format("unknown {} '{}'; there are: {}", kind, name, list);

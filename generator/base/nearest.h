@@ -8,10 +8,13 @@
 
 namespace intaglio {
 
-// The candidate with the least edit distance to `name`, or empty if none is near (more than half of it differs).
+// The candidate with the least edit distance to `name`, or empty if none is near (more than half of
+// it differs).
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
 
-// "unknown KIND 'name'; did you mean 'x'?" or, if none is near, "unknown KIND 'name'; there are: a, b, c".
-std::string unknown_name_sentence(std::string_view kind, std::string_view name, std::span<const std::string> candidates);
+// "unknown KIND 'name'; did you mean 'x'?" or, if none is near, "unknown KIND 'name'; there are: a,
+// b, c".
+std::string unknown_name_sentence(std::string_view kind, std::string_view name,
+                                  std::span<const std::string> candidates);
 
 }  // namespace intaglio

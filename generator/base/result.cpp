@@ -10,7 +10,8 @@ std::string to_string(const Diagnostic& diagnostic) {
     if (!diagnostic.file.empty()) {
         text += diagnostic.file;
         if (diagnostic.line > 0) text += fmt::format(":{}", diagnostic.line);
-        if (diagnostic.line > 0 && diagnostic.column > 0) text += fmt::format(":{}", diagnostic.column);
+        if (diagnostic.line > 0 && diagnostic.column > 0)
+            text += fmt::format(":{}", diagnostic.column);
         text += ": ";
     }
     text += fmt::format("error: {} [{}]", diagnostic.message, diagnostic.code);
@@ -22,13 +23,22 @@ Diagnostic input_error(std::string code, std::string message) {
     return {.code = std::move(code), .message = std::move(message), .file = {}, .notes = {}};
 }
 
-Diagnostic input_error(std::string code, std::string message, std::string file, int line, int column) {
-    return {.code = std::move(code), .message = std::move(message), .file = std::move(file),
-            .line = line, .column = column, .notes = {}};
+Diagnostic input_error(std::string code, std::string message, std::string file, int line,
+                       int column) {
+    return {.code = std::move(code),
+            .message = std::move(message),
+            .file = std::move(file),
+            .line = line,
+            .column = column,
+            .notes = {}};
 }
 
 Diagnostic internal_error(std::string code, std::string message) {
-    return {.code = std::move(code), .message = std::move(message), .file = {}, .notes = {}, .fault = Fault::Internal};
+    return {.code = std::move(code),
+            .message = std::move(message),
+            .file = {},
+            .notes = {},
+            .fault = Fault::Internal};
 }
 
 }  // namespace intaglio

@@ -1,5 +1,5 @@
-// Builds indented text line by line.  Every text the generator emits goes through one of these, so that indentation
-// and line ends are decided in one place.
+// Builds indented text line by line.  Every text the generator emits goes through one of these, so
+// that indentation and line ends are decided in one place.
 #pragma once
 
 #include <fmt/format.h>
@@ -24,7 +24,8 @@ class TextBuilder {
     void indent() { ++level_; }
     void outdent() { --level_; }
 
-    // Columns left of the text at the current indentation; a wrapping printer subtracts it from its width.
+    // Columns left of the text at the current indentation; a wrapping printer subtracts it from its
+    // width.
     int column() const { return level_ * spaces_per_level_; }
 
     const std::string& text() const { return text_; }

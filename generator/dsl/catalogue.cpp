@@ -13,7 +13,8 @@ namespace {
 
 using Choices = std::map<std::string, std::string, std::less<>>;
 
-const std::vector<std::string> part_names = {"search", "shadow", "normal", "shading", "output", "vertex"};
+const std::vector<std::string> part_names = {"search",  "shadow", "normal",
+                                             "shading", "output", "vertex"};
 
 std::vector<std::string_view> split_items(std::string_view text) {
     std::vector<std::string_view> items;
@@ -32,10 +33,12 @@ Result<Choices> parse_items(const std::vector<std::string_view>& items) {
     for (std::string_view item : items) {
         const std::size_t equals = item.find('=');
         if (equals == std::string_view::npos)
-            return input_error("surface-syntax", fmt::format("'{}' is not of the form part=technique", item));
+            return input_error("surface-syntax",
+                               fmt::format("'{}' is not of the form part=technique", item));
         const std::string part(item.substr(0, equals));
         if (std::find(part_names.begin(), part_names.end(), part) == part_names.end())
-            return input_error("unknown-part", unknown_name_sentence("part of a surface", part, part_names));
+            return input_error("unknown-part",
+                               unknown_name_sentence("part of a surface", part, part_names));
         if (!choices.emplace(part, item.substr(equals + 1)).second)
             return input_error("surface-syntax", fmt::format("part '{}' is given twice", part));
     }
@@ -69,14 +72,16 @@ Result<Choices> parse_composition(const Catalogue& catalogue, std::string_view t
     return choices;
 }
 
-// Makes the technique chosen for a part, or the table's first row; notes its source in the description.
+// Makes the technique chosen for a part, or the table's first row; notes its source in the
+// description.
 template <typename Kind>
-Status choose(const std::vector<Entry<Kind>>& table, const Choices& choices, const std::string& part,
-              std::unique_ptr<Kind>& chosen, std::string& description) {
+Status choose(const std::vector<Entry<Kind>>& table, const Choices& choices,
+              const std::string& part, std::unique_ptr<Kind>& chosen, std::string& description) {
     const auto choice = choices.find(part);
     const auto row = choice == choices.end()
                          ? table.begin()
-                         : std::find_if(table.begin(), table.end(), [&](const auto& e) { return e.name == choice->second; });
+                         : std::find_if(table.begin(), table.end(),
+                                        [&](const auto& e) { return e.name == choice->second; });
     if (row == table.end()) {
         std::vector<std::string> names;
         for (const Entry<Kind>& e : table) names.push_back(e.name);
@@ -84,7 +89,8 @@ Status choose(const std::vector<Entry<Kind>>& table, const Choices& choices, con
     }
     chosen = row->make();
     if (!row->source.empty())
-        description += fmt::format("{}{}: {} ({})", description.empty() ? "" : "\n", part, row->summary, row->source);
+        description += fmt::format("{}{}: {} ({})", description.empty() ? "" : "\n", part,
+                                   row->summary, row->source);
     return Done{};
 }
 
@@ -107,7 +113,8 @@ Result<Surface> make_surface(const Catalogue& catalogue, std::string_view text) 
     return surface;
 }
 
-std::string with_part(std::string_view composition, std::string_view part, std::string_view technique) {
+std::string with_part(std::string_view composition, std::string_view part,
+                      std::string_view technique) {
     std::string replaced;
     for (std::string_view item : split_items(composition))
         if (item.substr(0, item.find('=')) != part || names_technique(item))

@@ -1,4 +1,5 @@
-// The tables of techniques a program knows: its own templates and a user's.  A technique is one row.
+// The tables of techniques a program knows: its own templates and a user's.  A technique is one
+// row.
 #pragma once
 
 #include <memory>
@@ -22,7 +23,8 @@ struct Entry {
 // The row of technique T.
 template <typename Kind, typename T>
 Entry<Kind> entry(std::string name, std::string summary, std::string source) {
-    return {std::move(name), std::move(summary), std::move(source), []() -> std::unique_ptr<Kind> { return std::make_unique<T>(); }};
+    return {std::move(name), std::move(summary), std::move(source),
+            []() -> std::unique_ptr<Kind> { return std::make_unique<T>(); }};
 }
 
 // A composition that has a name of its own: "fur" = "search=steep_parallax,shadow=fur_depth".
@@ -41,13 +43,14 @@ struct Catalogue {
     std::vector<Preset> presets;
 };
 
-// A surface from what a user writes: items separated by commas, each part=technique with the parts search, shadow, normal,
-// shading, output and vertex.  The first item may be a preset's or a search's name instead, whose parts the others
-// replace: "fur,output=displaced".  What is not named is the first row of its table.  Wrong names get a sentence
-// with the nearest right one.
+// A surface from what a user writes: items separated by commas, each part=technique with the parts
+// search, shadow, normal, shading, output and vertex.  The first item may be a preset's or a
+// search's name instead, whose parts the others replace: "fur,output=displaced".  What is not named
+// is the first row of its table.  Wrong names get a sentence with the nearest right one.
 Result<Surface> make_surface(const Catalogue& catalogue, std::string_view text);
 
 // The same composition with one part replaced: with_part("fur", "output", "displaced").
-std::string with_part(std::string_view composition, std::string_view part, std::string_view technique);
+std::string with_part(std::string_view composition, std::string_view part,
+                      std::string_view technique);
 
 }  // namespace intaglio::dsl

@@ -3,8 +3,8 @@
 
 namespace intaglio::dsl {
 
-void If(bool1 condition, const std::function<void()>& then_body, const std::function<void()>& else_body,
-        Place place) {
+void If(bool1 condition, const std::function<void()>& then_body,
+        const std::function<void()>& else_body, Place place) {
     Recorder& recorder = Recorder::current();
     recorder.locate(place);
     recorder.begin_if(condition.id());

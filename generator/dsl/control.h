@@ -9,18 +9,20 @@
 
 namespace intaglio::dsl {
 
-// A value together with the C++ line that made it; converting to it is how assignments learn their place.
+// A value together with the C++ line that made it; converting to it is how assignments learn their
+// place.
 template <typename T>
 struct Located {
     template <typename U>
-        requires std::convertible_to<U, T>
-    Located(const U& from, Place at = Place::here()) : value(from), place(at) {}
+    requires std::convertible_to<U, T> Located(const U& from, Place at = Place::here())
+        : value(from), place(at) {}
     T value;
     Place place;
 };
 
-// A variable: assignment is recorded, loops and ifs carry it.  It reads as a T.  It cannot be copied, because a copy
-// would look like a second variable and be none; `float1 now = t;` takes its present value.
+// A variable: assignment is recorded, loops and ifs carry it.  It reads as a T.  It cannot be
+// copied, because a copy would look like a second variable and be none; `float1 now = t;` takes its
+// present value.
 template <typename T>
 class var : public T {
   public:
@@ -47,7 +49,9 @@ class var : public T {
 };
 
 template <int N>
-constexpr int width_of(const var<Float<N>>*) { return N; }
+constexpr int width_of(const var<Float<N>>*) {
+    return N;
+}
 
 // A loop of at most `count` iterations, named so that a schedule can speak of it.
 //     for (int1 i : march) { march.until(condition); ... }
@@ -74,7 +78,8 @@ class Loop {
       public:
         Iterator(const Loop& loop, Place place)
             : loop_(&loop),
-              index_(Recorder::current().begin_loop(loop, {loop.name(), loop.trip_count(), {}, {}}, place)) {}
+              index_(Recorder::current().begin_loop(loop, {loop.name(), loop.trip_count(), {}, {}},
+                                                    place)) {}
         int1 operator*() const { return int1::of(index_); }
         bool operator!=(End) const { return open_; }
         void operator++() {
@@ -98,14 +103,16 @@ class Loop {
 
 // Runs one of two bodies; the variables they assign are carried out.
 //     If(light.z() > 0.0f, [&] { ... }, [&] { ... });
-void If(bool1 condition, const std::function<void()>& then_body, const std::function<void()>& else_body = {},
-        Place place = Place::here());
+void If(bool1 condition, const std::function<void()>& then_body,
+        const std::function<void()>& else_body = {}, Place place = Place::here());
 
-// A part of the technique's work: a comment in the emitted text, and the heading its cost is charged to.
+// A part of the technique's work: a comment in the emitted text, and the heading its cost is
+// charged to.
 //     { Step step("march", "March the view ray down through the relief."); ... }
 class Step {
   public:
-    Step(std::string_view name, std::string_view comment) : outer_(Recorder::current().enter_step(name, comment)) {}
+    Step(std::string_view name, std::string_view comment)
+        : outer_(Recorder::current().enter_step(name, comment)) {}
     ~Step() { Recorder::current().leave_step(outer_); }
     Step(const Step&) = delete;
     Step& operator=(const Step&) = delete;

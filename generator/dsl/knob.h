@@ -9,8 +9,12 @@
 
 namespace intaglio::dsl {
 
-struct at_least { double value; };
-struct at_most { double value; };
+struct at_least {
+    double value;
+};
+struct at_most {
+    double value;
+};
 
 // What is common to knobs of any type: name, range, default and present value.
 class KnobBase {
@@ -28,14 +32,21 @@ class KnobBase {
     // "taps = 8"
     std::string setting() const;
 
-    // Sets the knob from what a user wrote; a sentence if it is no number, not whole where it must be, or out of range.
+    // Sets the knob from what a user wrote; a sentence if it is no number, not whole where it must
+    // be, or out of range.
     Status set(std::string_view text);
     Status set(double value);
 
   protected:
-    KnobBase(std::string name, double initial, at_least least, at_most most, bool whole, std::string comment)
-        : name_(std::move(name)), comment_(std::move(comment)), initial_(initial), number_(initial),
-          least_(least.value), most_(most.value), whole_(whole) {}
+    KnobBase(std::string name, double initial, at_least least, at_most most, bool whole,
+             std::string comment)
+        : name_(std::move(name)),
+          comment_(std::move(comment)),
+          initial_(initial),
+          number_(initial),
+          least_(least.value),
+          most_(most.value),
+          whole_(whole) {}
     ~KnobBase() = default;
 
   private:
@@ -61,12 +72,15 @@ class KnobOwner {
 
 template <typename T>
 class Knob : public KnobBase {
-    static_assert(std::is_same_v<T, int> || std::is_same_v<T, float>, "a knob is an int or a float");
+    static_assert(std::is_same_v<T, int> || std::is_same_v<T, float>,
+                  "a knob is an int or a float");
 
   public:
     // `comment`: what it means, with its unit.
-    Knob(KnobOwner* owner, std::string name, T initial, at_least least, at_most most, std::string comment)
-        : KnobBase(std::move(name), initial, least, most, std::is_same_v<T, int>, std::move(comment)) {
+    Knob(KnobOwner* owner, std::string name, T initial, at_least least, at_most most,
+         std::string comment)
+        : KnobBase(std::move(name), initial, least, most, std::is_same_v<T, int>,
+                   std::move(comment)) {
         owner->knobs_.push_back(this);
     }
     T value() const { return static_cast<T>(number()); }

@@ -13,7 +13,9 @@ thread_local Recorder* current_recorder = nullptr;
 
 }  // namespace
 
-Recorder::Recorder(ir::Module& module) : builder_(module), outer_(current_recorder) { current_recorder = this; }
+Recorder::Recorder(ir::Module& module) : builder_(module), outer_(current_recorder) {
+    current_recorder = this;
+}
 
 Recorder::~Recorder() { current_recorder = outer_; }
 
@@ -23,10 +25,12 @@ Recorder& Recorder::current() {
 }
 
 std::string Recorder::relative_path(std::string_view path) {
-    // The build passes absolute or relative paths as it likes; emitted text must not depend on where a checkout lies.
+    // The build passes absolute or relative paths as it likes; emitted text must not depend on
+    // where a checkout lies.
     for (std::string_view root : {"templates/", "generator/", "examples/", "tests/"}) {
         const std::size_t at = path.rfind(root);
-        if (at != std::string_view::npos && (at == 0 || path[at - 1] == '/')) return std::string(path.substr(at));
+        if (at != std::string_view::npos && (at == 0 || path[at - 1] == '/'))
+            return std::string(path.substr(at));
     }
     const std::size_t slash = path.rfind('/');
     return std::string(slash == std::string_view::npos ? path : path.substr(slash + 1));
@@ -44,7 +48,8 @@ int Recorder::file_index(std::string_view path) {
 void Recorder::locate(Place place) {
     const int file = file_index(place.file);
     std::vector<ir::Instruction>& body = builder_.current_region().body;
-    for (auto instruction = body.rbegin(); instruction != body.rend() && instruction->origin.line == 0; ++instruction) {
+    for (auto instruction = body.rbegin();
+         instruction != body.rend() && instruction->origin.line == 0; ++instruction) {
         instruction->origin.file = file;
         instruction->origin.line = place.line;
     }
@@ -71,17 +76,20 @@ void Recorder::add_variable(VariableSlot* variable) { variables_.push_back(varia
 
 void Recorder::remove_variable(VariableSlot* variable) { std::erase(variables_, variable); }
 
-std::vector<ir::ValueId> Recorder::current_values(const std::vector<VariableSlot*>& variables) const {
+std::vector<ir::ValueId> Recorder::current_values(
+    const std::vector<VariableSlot*>& variables) const {
     std::vector<ir::ValueId> values;
     for (const VariableSlot* variable : variables) values.push_back(*variable->current);
     return values;
 }
 
-void Recorder::rebind(const std::vector<VariableSlot*>& variables, const std::vector<ir::ValueId>& values) {
+void Recorder::rebind(const std::vector<VariableSlot*>& variables,
+                      const std::vector<ir::ValueId>& values) {
     for (std::size_t i = 0; i < variables.size(); ++i) *variables[i]->current = values[i];
 }
 
-void Recorder::name_all(const std::vector<VariableSlot*>& variables, const std::vector<ir::ValueId>& values) {
+void Recorder::name_all(const std::vector<VariableSlot*>& variables,
+                        const std::vector<ir::ValueId>& values) {
     for (std::size_t i = 0; i < variables.size(); ++i) name_value(values[i], variables[i]->name);
 }
 
@@ -106,8 +114,9 @@ ir::ValueId Recorder::begin_loop(const Loop& loop, ir::LoopInfo loop_info, Place
 void Recorder::break_if(const Loop& loop, ir::ValueId condition, Place place) {
     if (scopes_.empty() || scopes_.back().loop != &loop) {
         Diagnostic error = input_error("until-outside-loop",
-            "until() stands outside the body of its loop, or inside an If within it; call it at the top level of the loop's body",
-            relative_path(place.file), place.line);
+                                       "until() stands outside the body of its loop, or inside an "
+                                       "If within it; call it at the top level of the loop's body",
+                                       relative_path(place.file), place.line);
         fail(std::move(error));
         return;
     }
@@ -117,7 +126,8 @@ void Recorder::break_if(const Loop& loop, ir::ValueId condition, Place place) {
 
 void Recorder::end_loop(const Loop& loop) {
     if (scopes_.empty() || scopes_.back().loop != &loop) {
-        fail(input_error("unclosed-scope", "a loop ended while another loop or an If inside it was still open"));
+        fail(input_error("unclosed-scope",
+                         "a loop ended while another loop or an If inside it was still open"));
         return;
     }
     const Scope scope = std::move(scopes_.back());
@@ -157,7 +167,9 @@ void Recorder::fail(Diagnostic error) {
 
 Status Recorder::finish(const std::vector<ir::ValueId>& outputs) {
     if (!scopes_.empty())
-        fail(input_error("unclosed-scope", "a recorded loop was left by a C++ break or return; use until() to leave it early"));
+        fail(input_error(
+            "unclosed-scope",
+            "a recorded loop was left by a C++ break or return; use until() to leave it early"));
     for (const auto& [name, form] : overrides_)
         if (std::find(loop_names_.begin(), loop_names_.end(), name) == loop_names_.end())
             fail(input_error("unknown-loop", unknown_name_sentence("loop", name, loop_names_)));

@@ -1,5 +1,5 @@
-// The recorder: turns DSL expressions into IR while a technique's C++ body runs.  One recorder is current per thread;
-// the value types below it are thin handles.  Techniques never see this class.
+// The recorder: turns DSL expressions into IR while a technique's C++ body runs.  One recorder is
+// current per thread; the value types below it are thin handles.  Techniques never see this class.
 #pragma once
 
 #include <map>
@@ -30,14 +30,15 @@ class Recorder {
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
-    // The current recorder of this thread; asserts if there is none (a DSL value was made outside a recording).
+    // The current recorder of this thread; asserts if there is none (a DSL value was made outside a
+    // recording).
     static Recorder& current();
 
     ir::Builder& builder() { return builder_; }
     ir::Module& module() { return builder_.module(); }
 
-    // Gives every instruction appended since the last call this line: operators have no place of their own and take
-    // that of the next named call, which stands in the same statement.
+    // Gives every instruction appended since the last call this line: operators have no place of
+    // their own and take that of the next named call, which stands in the same statement.
     void locate(Place place);
     // Where the C++ files' paths are cut so that they are relative to a project's root.
     static std::string relative_path(std::string_view path);
@@ -63,23 +64,30 @@ class Recorder {
     void set_loop_form(const Loop& loop, ir::LoopForm form, bool closed_form);
 
     // A caller's own choice for every loop of this name, above what the schedule says.
-    void override_loop_form(const std::string& loop_name, ir::LoopForm form) { overrides_[loop_name] = form; }
+    void override_loop_form(const std::string& loop_name, ir::LoopForm form) {
+        overrides_[loop_name] = form;
+    }
 
     // Closes the module with its output values, and gives the first error of the recording, if any.
     Status finish(const std::vector<ir::ValueId>& outputs);
     void fail(Diagnostic error);
 
   private:
-    struct Scope {                    // an open loop or if
-        const Loop* loop = nullptr;   // nullptr: an if
+    struct Scope {                   // an open loop or if
+        const Loop* loop = nullptr;  // nullptr: an if
         Place place;
         std::vector<VariableSlot*> variables;
         std::vector<ir::ValueId> before;
     };
-    struct Directive { ir::LoopForm form; bool closed_form; };
+    struct Directive {
+        ir::LoopForm form;
+        bool closed_form;
+    };
     std::vector<ir::ValueId> current_values(const std::vector<VariableSlot*>& variables) const;
-    void rebind(const std::vector<VariableSlot*>& variables, const std::vector<ir::ValueId>& values);
-    void name_all(const std::vector<VariableSlot*>& variables, const std::vector<ir::ValueId>& values);
+    void rebind(const std::vector<VariableSlot*>& variables,
+                const std::vector<ir::ValueId>& values);
+    void name_all(const std::vector<VariableSlot*>& variables,
+                  const std::vector<ir::ValueId>& values);
     int file_index(std::string_view path);
 
     ir::Builder builder_;

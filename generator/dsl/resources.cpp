@@ -11,15 +11,18 @@ namespace {
 // The index of the declaration of this name; appended if there is none.
 template <typename Declaration>
 int find_or_add(std::vector<Declaration>& declarations, Declaration declaration) {
-    const auto found = std::find_if(declarations.begin(), declarations.end(),
-                                    [&](const Declaration& other) { return other.name == declaration.name; });
+    const auto found =
+        std::find_if(declarations.begin(), declarations.end(),
+                     [&](const Declaration& other) { return other.name == declaration.name; });
     if (found == declarations.end()) {
         declarations.push_back(std::move(declaration));
         return static_cast<int>(declarations.size()) - 1;
     }
     if (!(*found == declaration))
-        Recorder::current().fail(input_error(
-            "declared-twice", fmt::format("'{}' is declared twice, with different types or comments", declaration.name)));
+        Recorder::current().fail(
+            input_error("declared-twice",
+                        fmt::format("'{}' is declared twice, with different types or comments",
+                                    declaration.name)));
     return static_cast<int>(found - declarations.begin());
 }
 
@@ -31,27 +34,30 @@ sampler2D::sampler2D(std::string_view name, std::string_view comment)
 
 float4 sampler2D::sample_level(float2 uv, float1 level, Place place) const {
     Recorder& recorder = Recorder::current();
-    const float4 texel = float4::of(recorder.builder().sample(ir::Op::SampleLevel, slot_, {uv.id(), level.id()}));
+    const float4 texel =
+        float4::of(recorder.builder().sample(ir::Op::SampleLevel, slot_, {uv.id(), level.id()}));
     recorder.locate(place);
     return texel;
 }
 
 float4 sampler2D::sample_grad(float2 uv, float2 ddx_uv, float2 ddy_uv, Place place) const {
     Recorder& recorder = Recorder::current();
-    const float4 texel =
-        float4::of(recorder.builder().sample(ir::Op::SampleGrad, slot_, {uv.id(), ddx_uv.id(), ddy_uv.id()}));
+    const float4 texel = float4::of(
+        recorder.builder().sample(ir::Op::SampleGrad, slot_, {uv.id(), ddx_uv.id(), ddy_uv.id()}));
     recorder.locate(place);
     return texel;
 }
 
 float4 sampler2D::sample(float2 uv, Place place) const {
     Recorder& recorder = Recorder::current();
-    const float4 texel = float4::of(recorder.builder().sample(ir::Op::SampleImplicit, slot_, {uv.id()}));
+    const float4 texel =
+        float4::of(recorder.builder().sample(ir::Op::SampleImplicit, slot_, {uv.id()}));
     recorder.locate(place);
     return texel;
 }
 
-ir::ValueId record_uniform(std::string_view name, ir::Type type, int count, int element, std::string_view comment) {
+ir::ValueId record_uniform(std::string_view name, ir::Type type, int count, int element,
+                           std::string_view comment) {
     Recorder& recorder = Recorder::current();
     const int slot = find_or_add(recorder.module().uniforms,
                                  ir::Uniform{std::string(name), type, count, std::string(comment)});
@@ -60,7 +66,8 @@ ir::ValueId record_uniform(std::string_view name, ir::Type type, int count, int 
 
 ir::ValueId record_input(std::string_view name, ir::Type type, ir::Semantic semantic) {
     Recorder& recorder = Recorder::current();
-    const int slot = find_or_add(recorder.module().inputs, ir::Declaration{std::string(name), type, semantic});
+    const int slot =
+        find_or_add(recorder.module().inputs, ir::Declaration{std::string(name), type, semantic});
     return recorder.builder().input(slot);
 }
 

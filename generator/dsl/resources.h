@@ -1,5 +1,5 @@
-// What a shader reads and writes: uniforms, inputs, samplers.  Each is declared by its first use in a recording and
-// found again by name.
+// What a shader reads and writes: uniforms, inputs, samplers.  Each is declared by its first use in
+// a recording and found again by name.
 #pragma once
 
 #include <string_view>
@@ -24,7 +24,8 @@ class sampler2D {
     int slot_;
 };
 
-ir::ValueId record_uniform(std::string_view name, ir::Type type, int count, int element, std::string_view comment);
+ir::ValueId record_uniform(std::string_view name, ir::Type type, int count, int element,
+                           std::string_view comment);
 ir::ValueId record_input(std::string_view name, ir::Type type, ir::Semantic semantic);
 
 // A value that is the same for a whole draw.  `comment`: what it means, with unit and range.

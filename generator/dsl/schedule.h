@@ -1,5 +1,6 @@
-// The schedule: how the arithmetic of a technique is carried out on which target.  It changes cost, never the result
-// beyond a stated rounding bound.  A directive is obeyed or refused with a sentence, never skipped.
+// The schedule: how the arithmetic of a technique is carried out on which target.  It changes cost,
+// never the result beyond a stated rounding bound.  A directive is obeyed or refused with a
+// sentence, never skipped.
 #pragma once
 
 #include <map>
@@ -14,18 +15,20 @@ class Schedule {
   public:
     explicit Schedule(std::string target) : target_(std::move(target)) {}
 
-    // Directives for the targets whose name matches the pattern, in which * stands for any run of characters.  For each loop the
-    // first matching directive holds, so that special targets come first and "*" last.
+    // Directives for the targets whose name matches the pattern, in which * stands for any run of
+    // characters.  For each loop the first matching directive holds, so that special targets come
+    // first and "*" last.
     class Selection {
       public:
         // Written out iteration by iteration, early exits as selects.
         Selection& unroll(const Loop& loop);
         // Stays a loop.
         Selection& loop(const Loop& loop);
-        // Float inductions v += c become start + i * c: shorter dependency, other rounding (within trip count ulps).
+        // Float inductions v += c become start + i * c: shorter dependency, other rounding (within
+        // trip count ulps).
         Selection& closed_form(const Loop& loop);
-        // Affine functions of interpolants move to the vertex stage: the same value but for the rounding of the
-        // interpolation (a few ulps of the largest term).
+        // Affine functions of interpolants move to the vertex stage: the same value but for the
+        // rounding of the interpolation (a few ulps of the largest term).
         Selection& per_vertex();
 
       private:

@@ -9,12 +9,15 @@ namespace intaglio::dsl {
 namespace {
 
 // Both vectors arrive interpolated or from a caller, so neither is unit.
-float3 unit_input(std::string_view name, std::string_view unit_name) { return let(unit_name, normalize(input<3>(name))); }
+float3 unit_input(std::string_view name, std::string_view unit_name) {
+    return let(unit_name, normalize(input<3>(name)));
+}
 
 Relief make_relief(const Surface& surface) {
     const bool packed = surface.relief->packed == 1;
-    const sampler2D map = packed ? sampler2D("normal_map", "tangent-space normal in rgb, height in alpha")
-                                 : sampler2D("height_map", "height in red: 1 is the polygon, 0 the deepest");
+    const sampler2D map =
+        packed ? sampler2D("normal_map", "tangent-space normal in rgb, height in alpha")
+               : sampler2D("height_map", "height in red: 1 is the polygon, 0 the deepest");
     const float2 map_size = uniform<2>("map_size", "size of the height map in texels");
     const float1 scale = uniform<1>("scale", "depth of the relief in texture units");
     return {map, packed, scale, map_size, float1(surface.relief->level.value())};
@@ -26,7 +29,8 @@ Status check_techniques(const Surface& surface) {
     return Done{};
 }
 
-// Applies schedules and the caller's overrides; gives whether any schedule moves work to the vertex stage.
+// Applies schedules and the caller's overrides; gives whether any schedule moves work to the vertex
+// stage.
 bool apply_schedules(const Surface& surface, const RecordOptions& options, Recorder& recorder) {
     Schedule schedule(options.target);
     for (const Technique* technique : surface.techniques()) technique->schedule(schedule);
@@ -35,13 +39,15 @@ bool apply_schedules(const Surface& surface, const RecordOptions& options, Recor
     return schedule.moves_to_vertex() || options.per_vertex;
 }
 
-float3 shade(const Surface& surface, const Relief& relief, const Hit& hit, float2 uv, float3 view, float3 light,
-             float1 visibility) {
-    Step step("shading", "Shade the point with its own normal and colour, read where the ray met the relief.");
+float3 shade(const Surface& surface, const Relief& relief, const Hit& hit, float2 uv, float3 view,
+             float3 light, float1 visibility) {
+    Step step("shading",
+              "Shade the point with its own normal and colour, read where the ray met the relief.");
     const Footprint footprint{let("ddx_uv", ddx(uv)), let("ddy_uv", ddy(uv))};
     const float3 normal = let("normal", surface.normal->normal(relief, hit, footprint));
     const sampler2D colour_map("colour_map", "albedo");
-    const float3 albedo = let("albedo", colour_map.sample_grad(hit.uv, footprint.ddx_uv, footprint.ddy_uv).xyz());
+    const float3 albedo =
+        let("albedo", colour_map.sample_grad(hit.uv, footprint.ddx_uv, footprint.ddy_uv).xyz());
     return surface.shading->shade({normal, view, light, albedo, visibility});
 }
 
@@ -63,9 +69,11 @@ Status record_pixel(const Surface& surface, const RecordOptions& options, ir::Pr
         return let("visibility", surface.shadow->visibility(relief, hit, light));
     };
     const float1 visibility = shadow();
-    const float3 colour =
-        surface.output->shaded() ? shade(surface, relief, hit, uv, view, light, visibility) : float3(0.0f);
-    const float4 value = let(surface.output->name(), surface.output->write(hit, visibility, colour));
+    const float3 colour = surface.output->shaded()
+                              ? shade(surface, relief, hit, uv, view, light, visibility)
+                              : float3(0.0f);
+    const float4 value =
+        let(surface.output->name(), surface.output->write(hit, visibility, colour));
     program.pixel.outputs = {{surface.output->name(), ir::float4, ir::Semantic::Target}};
     return recorder.finish({value.id()});
 }
@@ -77,7 +85,8 @@ Status record_vertex(const Surface& surface, ir::Program& program) {
                               {"uv", ir::float2, ir::Semantic::Interpolant},
                               {"to_eye", ir::float3, ir::Semantic::Interpolant},
                               {"to_light", ir::float3, ir::Semantic::Interpolant}};
-    return recorder.finish({vertex.position.id(), vertex.uv.id(), vertex.to_eye.id(), vertex.to_light.id()});
+    return recorder.finish(
+        {vertex.position.id(), vertex.uv.id(), vertex.to_eye.id(), vertex.to_light.id()});
 }
 
 }  // namespace
@@ -95,7 +104,8 @@ std::vector<Technique*> Surface::techniques() const {
 std::vector<KnobBase*> Surface::knobs() const {
     std::vector<KnobBase*> all;
     for (const Technique* technique : std::initializer_list<const Technique*>{
-             relief.get(), search.get(), shadow.get(), normal.get(), shading.get(), output.get(), vertex.get()})
+             relief.get(), search.get(), shadow.get(), normal.get(), shading.get(), output.get(),
+             vertex.get()})
         all.insert(all.end(), technique->knobs().begin(), technique->knobs().end());
     return all;
 }
@@ -106,7 +116,8 @@ Status Surface::set_knob(std::string_view knob_name, std::string_view value) {
         if (knob->name() == knob_name) return knob->set(value);
         names.push_back(knob->name());
     }
-    return input_error("unknown-knob", unknown_name_sentence(fmt::format("knob of {}", name), knob_name, names));
+    return input_error("unknown-knob",
+                       unknown_name_sentence(fmt::format("knob of {}", name), knob_name, names));
 }
 
 std::vector<std::string> Surface::settings() const {
@@ -130,12 +141,15 @@ Result<ir::Program> record_surface(const Surface& surface, const RecordOptions& 
     return program;
 }
 
-Result<ir::Program> record_function(const Surface& surface, FunctionPart part, const RecordOptions& options) {
+Result<ir::Program> record_function(const Surface& surface, FunctionPart part,
+                                    const RecordOptions& options) {
     if (Status status = check_techniques(surface); !status) return status.error();
     ir::Program program;
     program.name = surface.name;
     program.description = surface.description;
-    const Technique& technique = part == FunctionPart::Search ? static_cast<const Technique&>(*surface.search) : *surface.shadow;
+    const Technique& technique = part == FunctionPart::Search
+                                     ? static_cast<const Technique&>(*surface.search)
+                                     : *surface.shadow;
     for (const Technique* used : {static_cast<const Technique*>(surface.relief.get()), &technique})
         for (const KnobBase* knob : used->knobs()) program.settings.push_back(knob->setting());
     ir::Module& module = program.pixel;
@@ -155,7 +169,8 @@ Result<ir::Program> record_function(const Surface& surface, FunctionPart part, c
         const float1 height = input<1>("height");
         const float3 light = unit_input("light", "unit_light");
         const Relief relief = make_relief(surface);
-        const float1 result = let("result", surface.shadow->visibility(relief, {uv, height}, light));
+        const float1 result =
+            let("result", surface.shadow->visibility(relief, {uv, height}, light));
         module.outputs = {{"result", ir::float1, ir::Semantic::Result}};
         if (Status status = recorder.finish({result.id()}); !status) return status.error();
     }

@@ -1,5 +1,6 @@
-// A surface: one search, shadow, normal source, shading, output and vertex work, composed.  A search is a drop-in: it
-// changes the offset computation and leaves the rest alone (McGuire and McGuire 2005).
+// A surface: one search, shadow, normal source, shading, output and vertex work, composed.  A
+// search is a drop-in: it changes the offset computation and leaves the rest alone (McGuire and
+// McGuire 2005).
 #pragma once
 
 #include <map>
@@ -16,8 +17,13 @@ namespace intaglio::dsl {
 // The relief's own knobs, shared by every technique of a surface.
 class ReliefKnobs : public Technique {
   public:
-    Knob<int> packed{this, "packed", 0, at_least{0}, at_most{1},
-                     "1: heights in the alpha channel of normal_map; 0: in the red channel of height_map"};
+    Knob<int> packed{
+        this,
+        "packed",
+        0,
+        at_least{0},
+        at_most{1},
+        "1: heights in the alpha channel of normal_map; 0: in the red channel of height_map"};
     Knob<float> level{this, "level", 0.0f, at_least{0}, at_most{16}, "mip level of height reads"};
 };
 
@@ -45,7 +51,8 @@ struct RecordOptions {
     std::string target;  // whose schedule applies
     // Overrides of the schedule by loop name ("march" -> Unrolled).
     std::map<std::string, ir::LoopForm> loop_forms;
-    bool per_vertex = false;  // consent to move affine functions of interpolants to the vertex stage
+    bool per_vertex =
+        false;  // consent to move affine functions of interpolants to the vertex stage
 };
 
 // Runs the techniques' bodies once and gives both stages as IR.
@@ -55,6 +62,7 @@ Result<ir::Program> record_surface(const Surface& surface, const RecordOptions& 
 //   Search: float3 find(float2 uv, float3 view): displaced coordinate and height
 //   Shadow: float1 visibility(float2 uv, float1 height, float3 light)
 enum class FunctionPart { Search, Shadow };
-Result<ir::Program> record_function(const Surface& surface, FunctionPart part, const RecordOptions& options);
+Result<ir::Program> record_function(const Surface& surface, FunctionPart part,
+                                    const RecordOptions& options);
 
 }  // namespace intaglio::dsl

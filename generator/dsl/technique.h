@@ -1,9 +1,9 @@
-// The parts of a surface: search, shadow, normal source, shading, output and vertex work.  Each is a technique: a
-// class with knobs, a body written in the DSL, and a schedule.
+// The parts of a surface: search, shadow, normal source, shading, output and vertex work.  Each is
+// a technique: a class with knobs, a body written in the DSL, and a schedule.
 //
-// Conventions (docs/conventions.md): tangent space with z along the normal; V and L are unit vectors from the surface
-// to the eye and to the light; height 1 is the polygon, 0 the deepest point; `scale` is the depth of the relief in
-// texture units.
+// Conventions (docs/conventions.md): tangent space with z along the normal; V and L are unit
+// vectors from the surface to the eye and to the light; height 1 is the polygon, 0 the deepest
+// point; `scale` is the depth of the relief in texture units.
 #pragma once
 
 #include <memory>
@@ -33,13 +33,17 @@ class Technique : public KnobOwner {
 // The height field under the polygon and how it is read.
 struct Relief {
     sampler2D map;
-    bool in_alpha;    // heights in the map's alpha channel (a combined normal and height map), else in red
+    bool in_alpha;    // heights in the map's alpha channel (a combined normal and height map), else
+                      // in red
     float1 scale;     // depth of the relief in texture units
     float2 map_size;  // texels
-    float1 level;     // mip level of every height read: fixed, so that reads in loops need no derivatives
+    float1
+        level;  // mip level of every height read: fixed, so that reads in loops need no derivatives
 
     // Height in [0, 1] at a texture coordinate.
-    float1 height(float2 uv, Place place = Place::here()) const { return height_at_level(uv, level, place); }
+    float1 height(float2 uv, Place place = Place::here()) const {
+        return height_at_level(uv, level, place);
+    }
     float1 height_at_level(float2 uv, float1 mip_level, Place place = Place::here()) const;
 };
 
@@ -62,7 +66,8 @@ struct Ray {
     float2 at(float1 t) const { return uv - reach * t; }
 };
 
-// How the coordinate changes from pixel to pixel before displacement: the level of every colour and normal read.
+// How the coordinate changes from pixel to pixel before displacement: the level of every colour and
+// normal read.
 struct Footprint {
     float2 ddx_uv, ddy_uv;
 };
@@ -71,7 +76,7 @@ struct Footprint {
 struct Fragment {
     float3 normal, view, light;  // unit, tangent space
     float3 albedo;
-    float1 visibility;           // of the light: 0 in shadow, 1 lit
+    float1 visibility;  // of the light: 0 in shadow, 1 lit
 };
 
 // Where does the view ray meet the relief first?
@@ -89,7 +94,8 @@ class Shadow : public Technique {
 class NormalSource : public Technique {
   public:
     // Unit normal of the relief in tangent space.
-    virtual float3 normal(const Relief& relief, const Hit& hit, const Footprint& footprint) const = 0;
+    virtual float3 normal(const Relief& relief, const Hit& hit,
+                          const Footprint& footprint) const = 0;
 };
 
 class Shading : public Technique {
@@ -109,7 +115,7 @@ class Output : public Technique {
 
 // What the vertex stage hands to the pixel stage, before interpolation.
 struct Vertex {
-    float4 position;     // clip space
+    float4 position;  // clip space
     float2 uv;
     float3 to_eye, to_light;  // tangent space, any length: interpolated, then normalised per pixel
 };

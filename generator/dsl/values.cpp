@@ -9,7 +9,8 @@ ir::ValueId record(ir::Op op, std::initializer_list<ir::ValueId> operands) {
 
 ir::ValueId record_splat(ir::ValueId scalar, int width) {
     constexpr std::string_view repeated = "xxxx";
-    return Recorder::current().builder().swizzle(scalar, repeated.substr(0, static_cast<std::size_t>(width)));
+    return Recorder::current().builder().swizzle(
+        scalar, repeated.substr(0, static_cast<std::size_t>(width)));
 }
 
 ir::ValueId record_wide(ir::Op op, ir::ValueId left, ir::ValueId right) {

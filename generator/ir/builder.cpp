@@ -28,9 +28,7 @@ Type result_type(Op op, std::span<const Type> operands, int swizzle_width) {
 
 Builder::Builder(Module& module) : module_(module) {}
 
-Region& Builder::current_region() {
-    return frames_.empty() ? module_.body : frames_.back().region;
-}
+Region& Builder::current_region() { return frames_.empty() ? module_.body : frames_.back().region; }
 
 Instruction Builder::make(Op op, std::span<const ValueId> operands) const {
     Instruction instruction;
@@ -95,7 +93,8 @@ ValueId Builder::compose(std::span<const ValueId> operands) { return emit(Op::Co
 
 ValueId Builder::swizzle(ValueId value, std::string_view letters) {
     constexpr std::string_view names = "xyzw";
-    if (letters == names.substr(0, static_cast<std::size_t>(module_.type(value).width))) return value;
+    if (letters == names.substr(0, static_cast<std::size_t>(module_.type(value).width)))
+        return value;
     Instruction instruction = make(Op::Swizzle, {&value, 1});
     for (std::size_t i = 0; i < letters.size(); ++i)
         instruction.lanes[i] = static_cast<std::uint8_t>(names.find(letters[i]));
@@ -145,13 +144,16 @@ std::vector<ValueId> Builder::end_loop(std::span<const ValueId> next) {
     close_region(next);
     Instruction instruction = std::move(frames_.back().instruction);
     frames_.pop_back();
-    for (ValueId value : next) instruction.results.push_back(module_.add_value(module_.type(value)));
+    for (ValueId value : next)
+        instruction.results.push_back(module_.add_value(module_.type(value)));
     std::vector<ValueId> results = instruction.results;
     append(std::move(instruction));
     return results;
 }
 
-void Builder::begin_if(ValueId condition) { frames_.push_back({make(Op::If, {&condition, 1}), {}}); }
+void Builder::begin_if(ValueId condition) {
+    frames_.push_back({make(Op::If, {&condition, 1}), {}});
+}
 
 void Builder::begin_else(std::span<const ValueId> then_values) { close_region(then_values); }
 
@@ -159,7 +161,8 @@ std::vector<ValueId> Builder::end_if(std::span<const ValueId> else_values) {
     close_region(else_values);
     Instruction instruction = std::move(frames_.back().instruction);
     frames_.pop_back();
-    for (ValueId value : else_values) instruction.results.push_back(module_.add_value(module_.type(value)));
+    for (ValueId value : else_values)
+        instruction.results.push_back(module_.add_value(module_.type(value)));
     std::vector<ValueId> results = instruction.results;
     append(std::move(instruction));
     return results;

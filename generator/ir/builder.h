@@ -1,5 +1,6 @@
-// Appends instructions to a module under construction.  Result types follow from the ops table; a wrong operand type
-// is a bug of ours and asserts (the verifier reports the same as a sentence for parsed text).
+// Appends instructions to a module under construction.  Result types follow from the ops table; a
+// wrong operand type is a bug of ours and asserts (the verifier reports the same as a sentence for
+// parsed text).
 #pragma once
 
 #include <initializer_list>
@@ -11,7 +12,8 @@
 
 namespace intaglio::ir {
 
-// The result type of an op over these operand types; asserts if the type rule has no single answer (leaves, regions).
+// The result type of an op over these operand types; asserts if the type rule has no single answer
+// (leaves, regions).
 Type result_type(Op op, std::span<const Type> operands, int swizzle_width = 0);
 
 class Builder {
@@ -36,7 +38,10 @@ class Builder {
     ValueId sample(Op op, int sampler, std::initializer_list<ValueId> operands);
 
     // Opens a loop; the region's parameters are the index, then one for each initial value.
-    struct LoopScope { ValueId index; std::vector<ValueId> carried; };
+    struct LoopScope {
+        ValueId index;
+        std::vector<ValueId> carried;
+    };
     LoopScope begin_loop(LoopInfo loop, std::span<const ValueId> initial);
     void break_if(ValueId condition, std::span<const ValueId> carried);
     // Closes the innermost loop; the results are the carried values after it.

@@ -1,10 +1,11 @@
-// The intermediate representation: typed values in structured regions.  There is no phi and no goto: a loop carries
-// values through its region's parameters, an if yields them.
+// The intermediate representation: typed values in structured regions.  There is no phi and no
+// goto: a loop carries values through its region's parameters, an if yields them.
 //
-// A Loop instruction has operands = initial carried values, results = carried values after the loop, and one region
-// whose parameters are the iteration index (int1, from 0) followed by the carried values.  Its body ends in Yield
-// with the next carried values.  A BreakIf may stand anywhere at the top level of the body; it leaves the loop with
-// carried values of its own.  An If instruction has two regions without parameters, each ending in Yield.
+// A Loop instruction has operands = initial carried values, results = carried values after the
+// loop, and one region whose parameters are the iteration index (int1, from 0) followed by the
+// carried values.  Its body ends in Yield with the next carried values.  A BreakIf may stand
+// anywhere at the top level of the body; it leaves the loop with carried values of its own.  An If
+// instruction has two regions without parameters, each ending in Yield.
 #pragma once
 
 #include <array>
@@ -26,7 +27,8 @@ struct Type {
 };
 
 constexpr Type bool1{Scalar::Bool, 1}, int1{Scalar::Int, 1};
-constexpr Type float1{Scalar::Float, 1}, float2{Scalar::Float, 2}, float3{Scalar::Float, 3}, float4{Scalar::Float, 4};
+constexpr Type float1{Scalar::Float, 1}, float2{Scalar::Float, 2}, float3{Scalar::Float, 3},
+    float4{Scalar::Float, 4};
 
 // "float3", "int1", "bool1".
 std::string to_string(Type type);
@@ -43,14 +45,16 @@ struct Origin {
     friend bool operator==(const Origin&, const Origin&) = default;
 };
 
-// What the schedule says of a loop.  Unspecified leaves the choice to the target; the others are obeyed or refused.
+// What the schedule says of a loop.  Unspecified leaves the choice to the target; the others are
+// obeyed or refused.
 enum class LoopForm : std::uint8_t { Unspecified, Rolled, Unrolled };
 
 struct LoopInfo {
     std::string name;
     int trip_count = 0;  // the most iterations the loop runs; known while generating
     LoopForm form = LoopForm::Unspecified;
-    bool closed_form = false;  // consent to rewrite float inductions as start + i * step, which rounds differently
+    bool closed_form =
+        false;  // consent to rewrite float inductions as start + i * step, which rounds differently
     friend bool operator==(const LoopInfo&, const LoopInfo&) = default;
 };
 
@@ -60,12 +64,13 @@ struct Instruction {
     Op op = Op::Constant;
     std::vector<ValueId> results;
     std::vector<ValueId> operands;
-    std::array<std::uint32_t, 4> bits{};   // Constant: components as bits of float, int, or 0 / 1
-    int slot = 0;                          // Input, Uniform, sample ops: index of the declaration
-    int element = 0;                       // Uniform: element of an array
-    std::array<std::uint8_t, 4> lanes{};   // Swizzle: source component (0..3) for each result component
-    LoopInfo loop;                         // Loop
-    std::vector<Region> regions;           // Loop: 1, If: 2 (then, else)
+    std::array<std::uint32_t, 4> bits{};  // Constant: components as bits of float, int, or 0 / 1
+    int slot = 0;                         // Input, Uniform, sample ops: index of the declaration
+    int element = 0;                      // Uniform: element of an array
+    std::array<std::uint8_t, 4>
+        lanes{};                  // Swizzle: source component (0..3) for each result component
+    LoopInfo loop;                // Loop
+    std::vector<Region> regions;  // Loop: 1, If: 2 (then, else)
     Origin origin;
 
     ValueId result() const { return results.front(); }
@@ -113,12 +118,13 @@ struct Uniform {
 
 struct Sampler {
     std::string name;
-    int dimension = 2;    // 2 or 3
+    int dimension = 2;  // 2 or 3
     std::string comment;
     friend bool operator==(const Sampler&, const Sampler&) = default;
 };
 
-// A named part of the technique's work: emitted as a comment, charged with the cost of its instructions.
+// A named part of the technique's work: emitted as a comment, charged with the cost of its
+// instructions.
 struct Step {
     std::string name;     // "march"
     std::string comment;  // a sentence a reader of the emitted text sees
@@ -149,12 +155,13 @@ struct Module {
 
 // A surface ready to be emitted: both stages, and a title with the knobs for the file header.
 struct Program {
-    std::string name;                   // "parallax_occlusion"
-    std::string description;            // one or more sentences with the source; lines without line breaks
+    std::string name;         // "parallax_occlusion"
+    std::string description;  // one or more sentences with the source; lines without line breaks
     std::vector<std::string> settings;  // "taps = 8", in order of declaration
     Module vertex;
     Module pixel;
-    bool per_vertex = false;            // consent to move affine functions of interpolants to the vertex stage
+    bool per_vertex =
+        false;  // consent to move affine functions of interpolants to the vertex stage
 };
 
 // Float bits of a constant component, and back.

@@ -53,7 +53,8 @@ void run_once(Run& run, const PipelineOptions& options, std::vector<std::string>
     run("close_inductions", [&](Module& module) {
         for (std::string& note : close_inductions(module)) notes.push_back(std::move(note));
     });
-    // Early exits as selects, the form of the papers: branches would nest as deep as the loop is long.
+    // Early exits as selects, the form of the papers: branches would nest as deep as the loop is
+    // long.
     run("unroll_loops", [&](Module& module) { unroll_loops(module, loops, EarlyExit::Select); });
     run("fold_constants", fold_constants);
     if (options.flatten_all)

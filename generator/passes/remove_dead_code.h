@@ -9,7 +9,8 @@ namespace intaglio::passes {
 // single results of an if, and single carried values of a loop, including those that are only used
 // to compute themselves.  A carried value that never changes becomes its initial value.
 // Declarations, files and steps that nothing uses any more go too (a function keeps its
-// inputs, uniforms and samplers: they are its signature).  Bit-exact.  Ends with values numbered anew.
+// inputs, uniforms and samplers: they are its signature).  Bit-exact.  Ends with values numbered
+// anew.
 void remove_dead_code(ir::Module& module);
 
 }  // namespace intaglio::passes

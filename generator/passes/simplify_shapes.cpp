@@ -72,9 +72,10 @@ bool simplify_swizzle(const Module& module, const Definitions& definitions, Inst
     return true;
 }
 
-// compose(compose(a, b), c) = compose(a, b, c), unless the inner one has a name: then it is a value that people know,
-// and taking it apart would show it twice.
-bool compose_of_compose(const Module& module, const Definitions& definitions, Instruction& compose) {
+// compose(compose(a, b), c) = compose(a, b, c), unless the inner one has a name: then it is a value
+// that people know, and taking it apart would show it twice.
+bool compose_of_compose(const Module& module, const Definitions& definitions,
+                        Instruction& compose) {
     std::vector<ValueId> parts;
     for (ValueId operand : compose.operands) {
         const Definition& inner = definitions[operand];

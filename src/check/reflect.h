@@ -64,8 +64,9 @@ struct Reflection {
     std::optional<Block> push_constants;
 };
 
-// What the entry point uses; what is only declared needs nothing from outside, and its place may be anything.  The module is validated first ("spirv-invalid").
-// Error "spirv-unreadable": SPIRV-Cross gives up.
+// What the entry point uses; what is only declared needs nothing from outside, and its place may be
+// anything.  The module is validated first ("spirv-invalid"). Error "spirv-unreadable": SPIRV-Cross
+// gives up.
 Result<Reflection> reflect(const SpirvWords& words);
 
 // The member of that name in any uniform block, with its block; nullopt when there is none.

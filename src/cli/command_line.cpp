@@ -1,8 +1,8 @@
 // Arguments to options, options to commands, errors to exit codes.
 #include "src/cli/command_line.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "src/cli/commands.h"
 
@@ -10,22 +10,44 @@ namespace intaglio::cli {
 namespace {
 
 void add_variant(CLI::App& command, VariantOptions& options, bool with_target = true) {
-    command.add_option("surface", options.surface, "A preset, a search, or a composition: search=steep_parallax,shadow=march")->required();
-    if (with_target) command.add_option("-T,--target", options.target, "Target; see `intaglio list targets`")->required();
-    command.add_option("-D,--define", options.knobs, "Knob: taps=12 (repeatable)")->allow_extra_args(false);
-    command.add_option("--loop", options.loops, "Form of a loop: march=unroll or march=loop (repeatable)")->allow_extra_args(false);
-    command.add_flag("--per-vertex", options.per_vertex, "Move affine functions of interpolants to the vertex stage");
+    command
+        .add_option("surface", options.surface,
+                    "A preset, a search, or a composition: search=steep_parallax,shadow=march")
+        ->required();
+    if (with_target)
+        command.add_option("-T,--target", options.target, "Target; see `intaglio list targets`")
+            ->required();
+    command.add_option("-D,--define", options.knobs, "Knob: taps=12 (repeatable)")
+        ->allow_extra_args(false);
+    command
+        .add_option("--loop", options.loops,
+                    "Form of a loop: march=unroll or march=loop (repeatable)")
+        ->allow_extra_args(false);
+    command.add_flag("--per-vertex", options.per_vertex,
+                     "Move affine functions of interpolants to the vertex stage");
 }
 
 void add_map(CLI::App& command, MapOptions& options) {
-    CLI::Option* height = command.add_option("--height", options.height, "Height map, PNG; heights in alpha where it varies, else red or gray");
-    command.add_option("--maker", options.maker, "Procedural map in place of a file; see `intaglio list maps`")->excludes(height);
-    command.add_option("--normal", options.normal, "Normal map, PNG; baked from the heights if not given");
-    command.add_option("--colour,--color", options.colour, "Colour map, PNG; a shade of the heights if not given");
-    command.add_option("--map-size", options.map_size, "Size of a procedural map")->capture_default_str();
+    CLI::Option* height =
+        command.add_option("--height", options.height,
+                           "Height map, PNG; heights in alpha where it varies, else red or gray");
+    command
+        .add_option("--maker", options.maker,
+                    "Procedural map in place of a file; see `intaglio list maps`")
+        ->excludes(height);
+    command.add_option("--normal", options.normal,
+                       "Normal map, PNG; baked from the heights if not given");
+    command.add_option("--colour,--color", options.colour,
+                       "Colour map, PNG; a shade of the heights if not given");
+    command.add_option("--map-size", options.map_size, "Size of a procedural map")
+        ->capture_default_str();
     command.add_option("--seed", options.seed, "Of a procedural map")->capture_default_str();
-    command.add_option("--scale", options.scale, "Depth of the relief in texture units")->capture_default_str();
-    command.add_option("--filtering", options.filtering, "float (exact) or native (as the file's precision)")->capture_default_str();
+    command.add_option("--scale", options.scale, "Depth of the relief in texture units")
+        ->capture_default_str();
+    command
+        .add_option("--filtering", options.filtering,
+                    "float (exact) or native (as the file's precision)")
+        ->capture_default_str();
 }
 
 // One line for what CLI11 throws, in our form; its own text would print the whole help.
@@ -50,82 +72,140 @@ int report(const Status& status) {
 void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<Status()>& chosen) {
     {
         auto options = std::make_shared<ListOptions>();
-        CLI::App* command = app.add_subcommand("list", "What there is: techniques, targets, knobs, maps");
-        command->add_option("what", options->what, "techniques, targets, knobs or maps")->capture_default_str();
+        CLI::App* command =
+            app.add_subcommand("list", "What there is: techniques, targets, knobs, maps");
+        command->add_option("what", options->what, "techniques, targets, knobs or maps")
+            ->capture_default_str();
         command->add_flag("--json", options->json, "For programs");
-        command->callback([&chosen, &catalogue, options] { chosen = [&, options] { return list(catalogue, *options); }; });
+        command->callback([&chosen, &catalogue, options] {
+            chosen = [&, options] { return list(catalogue, *options); };
+        });
     }
     {
         auto options = std::make_shared<EmitCommandOptions>();
         CLI::App* command = app.add_subcommand("emit", "One variant as text or binary");
         add_variant(*command, options->variant);
         command->add_option("--stage", options->stage, "vertex or pixel")->capture_default_str();
-        command->add_option("--as", options->as, "shader, or function: a part to paste into a shader of one's own")->capture_default_str();
-        command->add_option("--part", options->part, "Of a function: search or shadow")->capture_default_str();
-        command->add_option("--bind", options->bind, "Of a function: textures and scale as parameters or globals")->capture_default_str();
-        command->add_flag("--count-reads", options->count_reads, "Add a colour target that counts texture reads");
-        command->add_option("--dump-ir", options->dump_ir, "IR to stderr: all, final, or after one pass")->expected(0, 1)->default_str("all");
-        command->add_option("-o,--output", options->output, "File; - is stdout")->capture_default_str();
-        command->callback([&chosen, &catalogue, options] { chosen = [&, options] { return emit_variant(catalogue, *options); }; });
+        command
+            ->add_option("--as", options->as,
+                         "shader, or function: a part to paste into a shader of one's own")
+            ->capture_default_str();
+        command->add_option("--part", options->part, "Of a function: search or shadow")
+            ->capture_default_str();
+        command
+            ->add_option("--bind", options->bind,
+                         "Of a function: textures and scale as parameters or globals")
+            ->capture_default_str();
+        command->add_flag("--count-reads", options->count_reads,
+                          "Add a colour target that counts texture reads");
+        command
+            ->add_option("--dump-ir", options->dump_ir,
+                         "IR to stderr: all, final, or after one pass")
+            ->expected(0, 1)
+            ->default_str("all");
+        command->add_option("-o,--output", options->output, "File; - is stdout")
+            ->capture_default_str();
+        command->callback([&chosen, &catalogue, options] {
+            chosen = [&, options] { return emit_variant(catalogue, *options); };
+        });
     }
     {
         auto options = std::make_shared<ValidateOptions>();
-        CLI::App* command = app.add_subcommand("validate", "Variants through every witness: glslang, SPIRV-Tools, SPIRV-Cross");
+        CLI::App* command = app.add_subcommand(
+            "validate", "Variants through every witness: glslang, SPIRV-Tools, SPIRV-Cross");
         command->add_option("surfaces", options->surfaces, "Surfaces")->required();
-        command->add_option("-T,--target", options->targets, "Target (repeatable); every target if not given")->allow_extra_args(false);
-        command->add_option("-D,--define", options->knobs, "Knob: taps=12 (repeatable)")->allow_extra_args(false);
-        command->add_option("--loop", options->loops, "Form of a loop: march=unroll (repeatable)")->allow_extra_args(false);
+        command
+            ->add_option("-T,--target", options->targets,
+                         "Target (repeatable); every target if not given")
+            ->allow_extra_args(false);
+        command->add_option("-D,--define", options->knobs, "Knob: taps=12 (repeatable)")
+            ->allow_extra_args(false);
+        command->add_option("--loop", options->loops, "Form of a loop: march=unroll (repeatable)")
+            ->allow_extra_args(false);
         command->add_flag("-v,--verbose", options->verbose, "Every step of every witness");
-        command->callback([&chosen, &catalogue, options] { chosen = [&, options] { return validate(catalogue, *options); }; });
+        command->callback([&chosen, &catalogue, options] {
+            chosen = [&, options] { return validate(catalogue, *options); };
+        });
     }
     {
         auto options = std::make_shared<RunOptions>();
-        CLI::App* command = app.add_subcommand("run", "One picture on a Vulkan device, without a window");
+        CLI::App* command =
+            app.add_subcommand("run", "One picture on a Vulkan device, without a window");
         add_variant(*command, options->variant);
         add_map(*command, options->map);
-        command->add_option("--mesh", options->mesh, "map (the whole map from infinity), quad, sphere or torus")->capture_default_str();
-        command->add_option("--elevation", options->elevation, "Of the eye, degrees above the surface or horizon")->capture_default_str();
-        command->add_option("--azimuth", options->azimuth, "Of the eye, degrees")->capture_default_str();
-        command->add_option("--light-elevation", options->light_elevation, "Degrees")->capture_default_str();
-        command->add_option("--light-azimuth", options->light_azimuth, "Degrees")->capture_default_str();
-        command->add_option("--distance", options->distance, "Of the eye from the mesh's centre; 0: as suits the mesh")->capture_default_str();
-        command->add_option("--repeat", options->repeat, "Repetitions of the map over the mesh")->capture_default_str();
+        command
+            ->add_option("--mesh", options->mesh,
+                         "map (the whole map from infinity), quad, sphere or torus")
+            ->capture_default_str();
+        command
+            ->add_option("--elevation", options->elevation,
+                         "Of the eye, degrees above the surface or horizon")
+            ->capture_default_str();
+        command->add_option("--azimuth", options->azimuth, "Of the eye, degrees")
+            ->capture_default_str();
+        command->add_option("--light-elevation", options->light_elevation, "Degrees")
+            ->capture_default_str();
+        command->add_option("--light-azimuth", options->light_azimuth, "Degrees")
+            ->capture_default_str();
+        command
+            ->add_option("--distance", options->distance,
+                         "Of the eye from the mesh's centre; 0: as suits the mesh")
+            ->capture_default_str();
+        command->add_option("--repeat", options->repeat, "Repetitions of the map over the mesh")
+            ->capture_default_str();
         command->add_option("--size", options->size, "Of the picture")->capture_default_str();
-        command->add_option("--device", options->device, "Part of a Vulkan device's name; lavapipe if not given");
+        command->add_option("--device", options->device,
+                            "Part of a Vulkan device's name; lavapipe if not given");
         command->add_flag("--validation", options->validation, "With the Vulkan validation layers");
-        command->add_option("--error-map", options->error_map, "Also a picture of the hit errors (with --mesh map)");
+        command->add_option("--error-map", options->error_map,
+                            "Also a picture of the hit errors (with --mesh map)");
         command->add_option("-o,--output", options->output, "PNG file")->required();
-        command->callback([&chosen, &catalogue, options] { chosen = [&, options] { return run(catalogue, *options); }; });
+        command->callback([&chosen, &catalogue, options] {
+            chosen = [&, options] { return run(catalogue, *options); };
+        });
     }
     {
         auto options = std::make_shared<MeasureOptions>();
-        CLI::App* command = app.add_subcommand("measure", "Speed against error of a scene's variants");
+        CLI::App* command =
+            app.add_subcommand("measure", "Speed against error of a scene's variants");
         command->add_option("scene", options->scene, "Scene file, TOML")->required();
-        command->add_option("-o,--output", options->output, "Folder for results.json and results.csv")->required();
-        command->add_option("--height", options->height, "A height map in place of the scene's maps");
-        command->add_option("--device", options->device, "Part of a Vulkan device's name; the scene's, or lavapipe");
+        command
+            ->add_option("-o,--output", options->output, "Folder for results.json and results.csv")
+            ->required();
+        command->add_option("--height", options->height,
+                            "A height map in place of the scene's maps");
+        command->add_option("--device", options->device,
+                            "Part of a Vulkan device's name; the scene's, or lavapipe");
         command->add_flag("--validation", options->validation, "With the Vulkan validation layers");
-        command->callback([&chosen, &catalogue, options] { chosen = [&, options] { return measure_scene(catalogue, *options); }; });
+        command->callback([&chosen, &catalogue, options] {
+            chosen = [&, options] { return measure_scene(catalogue, *options); };
+        });
     }
     {
         auto options = std::make_shared<BakeOptions>();
         CLI::App* command = app.add_subcommand("bake", "Maps made from a height map");
         command->require_subcommand(1);
-        CLI::App* normal = command->add_subcommand("normal", "Tangent-space normals, y along +v (downwards in the picture)");
+        CLI::App* normal = command->add_subcommand(
+            "normal", "Tangent-space normals, y along +v (downwards in the picture)");
         normal->add_option("input", options->input, "Height map, PNG")->required();
         normal->add_option("-o,--output", options->output, "PNG file")->required();
-        normal->add_option("--scale", options->scale, "Depth of the relief in texture units")->capture_default_str();
+        normal->add_option("--scale", options->scale, "Depth of the relief in texture units")
+            ->capture_default_str();
         normal->add_option("--kernel", options->kernel, "central or sobel")->capture_default_str();
         normal->add_option("--wrap", options->wrap, "repeat or clamp")->capture_default_str();
         normal->add_flag("--keep-height", options->keep_height, "Heights in the alpha channel");
-        normal->callback([&chosen, options] { chosen = [options] { return bake_normal(*options); }; });
+        normal->callback(
+            [&chosen, options] { chosen = [options] { return bake_normal(*options); }; });
     }
 }
 
 }  // namespace
 
-int run_command_line(int argument_count, const char* const* arguments, const dsl::Catalogue& catalogue) {
-    CLI::App app("Shaders for relief surfaces: written once, emitted for every shader model, measured.", "intaglio");
+int run_command_line(int argument_count, const char* const* arguments,
+                     const dsl::Catalogue& catalogue) {
+    CLI::App app(
+        "Shaders for relief surfaces: written once, emitted for every shader model, measured.",
+        "intaglio");
     app.require_subcommand(1);
     app.set_version_flag("--version", std::string("intaglio 0.1.0"));
     std::function<Status()> chosen;

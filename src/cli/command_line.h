@@ -1,5 +1,5 @@
-// The command line as a function, so that a program with techniques of its own gets every command for them: fill a
-// catalogue, call this from main.
+// The command line as a function, so that a program with techniques of its own gets every command
+// for them: fill a catalogue, call this from main.
 #pragma once
 
 #include "generator/dsl/catalogue.h"
@@ -15,6 +15,7 @@ enum ExitCode {
 };
 
 // Runs one command.  The product goes to stdout or to the file of -o, every message to stderr.
-int run_command_line(int argument_count, const char* const* arguments, const dsl::Catalogue& catalogue);
+int run_command_line(int argument_count, const char* const* arguments,
+                     const dsl::Catalogue& catalogue);
 
 }  // namespace intaglio::cli

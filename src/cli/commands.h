@@ -1,5 +1,5 @@
-// One class of options and one function per command.  A command parses nothing: it gets its options filled, does the
-// work, and gives an error or nothing.
+// One class of options and one function per command.  A command parses nothing: it gets its options
+// filled, does the work, and gives an error or nothing.
 #pragma once
 
 #include <filesystem>
@@ -36,7 +36,7 @@ struct EmitCommandOptions {
     std::string part = "search";      // of a function: search, shadow
     std::string bind = "parameters";  // of a function: parameters, globals
     bool count_reads = false;
-    std::string dump_ir;              // empty: no; all; final; or the name of a pass
+    std::string dump_ir;  // empty: no; all; final; or the name of a pass
     std::string output = "-";
 };
 Status emit_variant(const dsl::Catalogue& catalogue, const EmitCommandOptions& options);
@@ -56,7 +56,7 @@ struct MapOptions {
     std::string map_size = "256x256";    // of a procedural map
     std::uint32_t seed = 1;              // of a procedural map
     double scale = 0.08;
-    std::string filtering = "float";     // float, native
+    std::string filtering = "float";  // float, native
 };
 Result<measure::MapSet> map_set_of(const MapOptions& options);
 Result<measure::Filtering> filtering_of(const std::string& name);
@@ -64,20 +64,22 @@ Result<measure::Filtering> filtering_of(const std::string& name);
 struct RunOptions {
     VariantOptions variant;
     MapOptions map;
-    std::string mesh = "quad";  // map: the whole map seen from infinity; quad, sphere, torus: in perspective
-    double elevation = 40, azimuth = 250, light_elevation = 45, light_azimuth = 20, distance = 0, repeat = 1;
+    std::string mesh =
+        "quad";  // map: the whole map seen from infinity; quad, sphere, torus: in perspective
+    double elevation = 40, azimuth = 250, light_elevation = 45, light_azimuth = 20, distance = 0,
+           repeat = 1;
     std::string size = "512x512";
     std::string device;
     bool validation = false;
-    std::string error_map;      // a file for the map of hit errors; only with mesh = map
+    std::string error_map;  // a file for the map of hit errors; only with mesh = map
     std::string output;
 };
 Status run(const dsl::Catalogue& catalogue, const RunOptions& options);
 
 struct MeasureOptions {
     std::string scene;
-    std::string output;   // folder
-    std::string height;   // a map in place of the scene's
+    std::string output;  // folder
+    std::string height;  // a map in place of the scene's
     std::string device;
     bool validation = false;
 };
@@ -96,7 +98,9 @@ Status bake_normal(const BakeOptions& options);
 Status write_product(const std::string& output, std::string_view bytes, bool binary);
 
 // "256x128" as two numbers from 1 to 16384.
-struct Size { int width, height; };
+struct Size {
+    int width, height;
+};
 Result<Size> parse_size(const std::string& text);
 
 }  // namespace intaglio::cli

@@ -10,15 +10,19 @@
 namespace intaglio::cli {
 namespace {
 
-Status one_of(std::string_view option, const std::string& value, const std::vector<std::string>& choices) {
+Status one_of(std::string_view option, const std::string& value,
+              const std::vector<std::string>& choices) {
     for (const std::string& choice : choices)
         if (choice == value) return Done{};
-    return input_error("option-value", unknown_name_sentence(fmt::format("value of {}", option), value, choices));
+    return input_error("option-value",
+                       unknown_name_sentence(fmt::format("value of {}", option), value, choices));
 }
 
 Status check_choices(const EmitCommandOptions& options) {
-    for (const Status& status : {one_of("--stage", options.stage, {"vertex", "pixel"}), one_of("--as", options.as, {"shader", "function"}),
-                                 one_of("--part", options.part, {"search", "shadow"}), one_of("--bind", options.bind, {"parameters", "globals"})})
+    for (const Status& status : {one_of("--stage", options.stage, {"vertex", "pixel"}),
+                                 one_of("--as", options.as, {"shader", "function"}),
+                                 one_of("--part", options.part, {"search", "shadow"}),
+                                 one_of("--bind", options.bind, {"parameters", "globals"})})
         if (!status) return status;
     return Done{};
 }
@@ -46,8 +50,10 @@ Status emit_variant(const dsl::Catalogue& catalogue, const EmitCommandOptions& o
 
     Product product;
     if (options.as == "function") {
-        const dsl::FunctionPart part = options.part == "search" ? dsl::FunctionPart::Search : dsl::FunctionPart::Shadow;
-        const Binding binding = options.bind == "parameters" ? Binding::Parameters : Binding::Globals;
+        const dsl::FunctionPart part =
+            options.part == "search" ? dsl::FunctionPart::Search : dsl::FunctionPart::Shadow;
+        const Binding binding =
+            options.bind == "parameters" ? Binding::Parameters : Binding::Globals;
         Result<Artifact> function = make_function(catalogue, *request, part, binding, dump);
         if (!function) return function.error();
         product = {std::move(function->text), function->extension, false};
@@ -72,7 +78,8 @@ Status validate(const dsl::Catalogue& catalogue, const ValidateOptions& options)
             if (language_of(*target)) targets.emplace_back(target->name);
     for (const std::string& surface : options.surfaces)
         for (const std::string& target : targets) {
-            const Result<VariantRequest> request = request_of({surface, target, options.knobs, options.loops, false});
+            const Result<VariantRequest> request =
+                request_of({surface, target, options.knobs, options.loops, false});
             if (!request) return request.error();
             const Result<Variant> variant = make_variant(catalogue, *request);
             if (!variant && options.targets.empty() && variant.error().code == "target-limit") {
@@ -83,10 +90,13 @@ Status validate(const dsl::Catalogue& catalogue, const ValidateOptions& options)
             const Result<Judged> judged = judge_variant(*variant);
             if (!judged) return judged.error();
             const check::SpirvCost& cost = judged->pixel_cost;
-            fmt::print("{:<46} {:<10} accepted by {} steps; ", surface, target, judged->steps.size());
+            fmt::print("{:<46} {:<10} accepted by {} steps; ", surface, target,
+                       judged->steps.size());
             if (check::has_spirv(*language_of(*variant->target)))
-                fmt::print("{} SPIR-V instructions ({} alu, {} texture, {} branch), path {} to {}\n", cost.total, cost.alu, cost.texture,
-                           cost.branch, cost.shortest_path, cost.longest_path);
+                fmt::print(
+                    "{} SPIR-V instructions ({} alu, {} texture, {} branch), path {} to {}\n",
+                    cost.total, cost.alu, cost.texture, cost.branch, cost.shortest_path,
+                    cost.longest_path);
             else
                 fmt::print("no SPIR-V of this language to count\n");
             if (options.verbose)

@@ -14,16 +14,22 @@ namespace {
 using nlohmann::ordered_json;
 
 ordered_json describe(const dsl::KnobBase& knob) {
-    return {{"name", knob.name()},     {"default", knob.initial()}, {"least", knob.least()},
-            {"most", knob.most()},     {"whole", knob.whole()},     {"comment", knob.comment()}};
+    return {{"name", knob.name()}, {"default", knob.initial()}, {"least", knob.least()},
+            {"most", knob.most()}, {"whole", knob.whole()},     {"comment", knob.comment()}};
 }
 
 template <typename Kind>
-void describe_table(ordered_json& list, std::string_view part, const std::vector<dsl::Entry<Kind>>& table) {
+void describe_table(ordered_json& list, std::string_view part,
+                    const std::vector<dsl::Entry<Kind>>& table) {
     for (const dsl::Entry<Kind>& row : table) {
-        ordered_json technique = {{"part", part}, {"name", row.name}, {"summary", row.summary}, {"source", row.source}, {"knobs", ordered_json::array()}};
+        ordered_json technique = {{"part", part},
+                                  {"name", row.name},
+                                  {"summary", row.summary},
+                                  {"source", row.source},
+                                  {"knobs", ordered_json::array()}};
         const std::unique_ptr<Kind> made = row.make();
-        for (const dsl::KnobBase* knob : made->knobs()) technique["knobs"].push_back(describe(*knob));
+        for (const dsl::KnobBase* knob : made->knobs())
+            technique["knobs"].push_back(describe(*knob));
         list.push_back(std::move(technique));
     }
 }
@@ -36,22 +42,32 @@ ordered_json techniques(const dsl::Catalogue& catalogue) {
     describe_table(list, "shading", catalogue.shadings);
     describe_table(list, "output", catalogue.outputs);
     describe_table(list, "vertex", catalogue.vertex_works);
-    ordered_json relief = {{"part", "relief"}, {"name", "relief"}, {"summary", "How every technique of a surface reads the heights"}, {"source", ""}, {"knobs", ordered_json::array()}};
+    ordered_json relief = {{"part", "relief"},
+                           {"name", "relief"},
+                           {"summary", "How every technique of a surface reads the heights"},
+                           {"source", ""},
+                           {"knobs", ordered_json::array()}};
     const dsl::ReliefKnobs relief_knobs;
-    for (const dsl::KnobBase* knob : relief_knobs.knobs()) relief["knobs"].push_back(describe(*knob));
+    for (const dsl::KnobBase* knob : relief_knobs.knobs())
+        relief["knobs"].push_back(describe(*knob));
     list.push_back(std::move(relief));
     return list;
 }
 
-std::string number(const ordered_json& value) { return fmt::format("{}", static_cast<float>(value.get<double>())); }
+std::string number(const ordered_json& value) {
+    return fmt::format("{}", static_cast<float>(value.get<double>()));
+}
 
 std::string techniques_text(const dsl::Catalogue& catalogue) {
     std::string text;
     for (const ordered_json& row : techniques(catalogue))
         if (row["part"] != "relief")
-            text += fmt::format("{:<8} {:<20} {}{}\n", row["part"].get<std::string>(), row["name"].get<std::string>(), row["summary"].get<std::string>(),
-                                row["source"] == "" ? "" : fmt::format(" ({})", row["source"].get<std::string>()));
-    for (const dsl::Preset& preset : catalogue.presets) text += fmt::format("{:<8} {:<20} {}\n", "preset", preset.name, preset.composition);
+            text += fmt::format(
+                "{:<8} {:<20} {}{}\n", row["part"].get<std::string>(),
+                row["name"].get<std::string>(), row["summary"].get<std::string>(),
+                row["source"] == "" ? "" : fmt::format(" ({})", row["source"].get<std::string>()));
+    for (const dsl::Preset& preset : catalogue.presets)
+        text += fmt::format("{:<8} {:<20} {}\n", "preset", preset.name, preset.composition);
     return text;
 }
 
@@ -59,8 +75,10 @@ std::string knobs_text(const dsl::Catalogue& catalogue) {
     std::string text;
     for (const ordered_json& row : techniques(catalogue))
         for (const ordered_json& knob : row["knobs"])
-            text += fmt::format("{:<20} {:<18} {:>5} of {} to {}  {}\n", row["name"].get<std::string>(), knob["name"].get<std::string>(),
-                                number(knob["default"]), number(knob["least"]), number(knob["most"]), knob["comment"].get<std::string>());
+            text += fmt::format("{:<20} {:<18} {:>5} of {} to {}  {}\n",
+                                row["name"].get<std::string>(), knob["name"].get<std::string>(),
+                                number(knob["default"]), number(knob["least"]),
+                                number(knob["most"]), knob["comment"].get<std::string>());
     return text;
 }
 
@@ -74,7 +92,9 @@ Status list(const dsl::Catalogue& catalogue, const ListOptions& options) {
         text = options.what == "knobs" ? knobs_text(catalogue) : techniques_text(catalogue);
     } else if (options.what == "targets") {
         for (const Target* target : all_targets()) {
-            json.push_back({{"name", target->name}, {"description", target->description}, {"derived_from", target->derived_from}});
+            json.push_back({{"name", target->name},
+                            {"description", target->description},
+                            {"derived_from", target->derived_from}});
             text += fmt::format("{:<10} {}\n", target->name, target->description);
         }
     } else if (options.what == "maps") {
@@ -83,7 +103,10 @@ Status list(const dsl::Catalogue& catalogue, const ListOptions& options) {
             text += fmt::format("{:<10} {}\n", maker.name, maker.sentence);
         }
     } else {
-        return input_error("unknown-list", unknown_name_sentence("list", options.what, std::vector<std::string>{"techniques", "targets", "knobs", "maps"}));
+        return input_error("unknown-list",
+                           unknown_name_sentence(
+                               "list", options.what,
+                               std::vector<std::string>{"techniques", "targets", "knobs", "maps"}));
     }
     return write_product("-", options.json ? json.dump(2) + "\n" : text, false);
 }

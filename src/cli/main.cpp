@@ -3,5 +3,6 @@
 #include "templates/all_techniques.h"
 
 int main(int argument_count, char** arguments) {
-    return intaglio::cli::run_command_line(argument_count, arguments, intaglio::templates::all_techniques());
+    return intaglio::cli::run_command_line(argument_count, arguments,
+                                           intaglio::templates::all_techniques());
 }

@@ -20,30 +20,40 @@ namespace intaglio::cli {
 
 namespace {
 
-// For each map one sheet: a line per variant with its picture and its error map, at the middle view of the plan.
-Status write_sheets(const dsl::Catalogue& catalogue, const measure::Plan& plan, const std::filesystem::path& folder) {
+// For each map one sheet: a line per variant with its picture and its error map, at the middle view
+// of the plan.
+Status write_sheets(const dsl::Catalogue& catalogue, const measure::Plan& plan,
+                    const std::filesystem::path& folder) {
     const Result<vulkan::Device> device = vulkan::Device::create({plan.device, plan.validation});
     if (!device) return device.error();
-    const measure::Shot shot{plan.views[plan.views.size() / 2], plan.lights[plan.lights.size() / 2], plan.scale, plan.size, plan.size};
+    const measure::Shot shot{plan.views[plan.views.size() / 2], plan.lights[plan.lights.size() / 2],
+                             plan.scale, plan.size, plan.size};
     for (const measure::MapSet& set : plan.maps) {
         const measure::Textures textures(set, plan.filtering);
         std::vector<std::vector<report::Tile>> lines;
         for (const VariantRequest& row : plan.rows) {
             // Targets draw the same pixels; one line per surface and settings is enough.
             if (row.target != plan.rows.front().target) continue;
-            const Result<vulkan::Picture> picture = measure::draw_shot(*device, catalogue, row, textures, shot);
+            const Result<vulkan::Picture> picture =
+                measure::draw_shot(*device, catalogue, row, textures, shot);
             if (!picture) return picture.error();
-            const Result<std::vector<measure::HitError>> errors = measure::shot_errors(*device, catalogue, row, set, textures, shot);
+            const Result<std::vector<measure::HitError>> errors =
+                measure::shot_errors(*device, catalogue, row, set, textures, shot);
             if (!errors) return errors.error();
             const measure::HitStatistics hits = measure::summarize(*errors, shot.width);
-            lines.push_back({{report::to_image(*picture), fmt::format("{} {}", row.surface, report::settings_of(row))},
-                             {report::error_map(*errors, shot.width), fmt::format("p95 {:.2f} texels, missed {:.1f} %", hits.p95,
-                                                                                  100.0 * static_cast<double>(hits.missed) / static_cast<double>(hits.pixels))}});
+            lines.push_back({{report::to_image(*picture),
+                              fmt::format("{} {}", row.surface, report::settings_of(row))},
+                             {report::error_map(*errors, shot.width),
+                              fmt::format("p95 {:.2f} texels, missed {:.1f} %", hits.p95,
+                                          100.0 * static_cast<double>(hits.missed) /
+                                              static_cast<double>(hits.pixels))}});
         }
         const Result<maps::Image> sheet = report::contact_sheet(
-            lines, fmt::format("{}: eye at {:g} degrees, light at {:g}", set.name, shot.view.elevation, shot.light.elevation));
+            lines, fmt::format("{}: eye at {:g} degrees, light at {:g}", set.name,
+                               shot.view.elevation, shot.light.elevation));
         if (!sheet) return sheet.error();
-        if (Status status = maps::write_png(folder / (set.name + ".png"), *sheet); !status) return status;
+        if (Status status = maps::write_png(folder / (set.name + ".png"), *sheet); !status)
+            return status;
     }
     return Done{};
 }
@@ -62,33 +72,44 @@ Status measure_scene(const dsl::Catalogue& catalogue, const MeasureOptions& opti
     const std::filesystem::path folder = options.output;
     std::error_code failure;
     std::filesystem::create_directories(folder, failure);
-    if (failure) return input_error("file-unwritable", fmt::format("cannot make this folder: {}", failure.message()), options.output);
+    if (failure)
+        return input_error("file-unwritable",
+                           fmt::format("cannot make this folder: {}", failure.message()),
+                           options.output);
     const bool terminal = isatty(STDERR_FILENO);
-    const Result<measure::Measurement> measurement = measure::measure(catalogue, plan, [&](int done, int all) {
-        if (terminal) fmt::print(stderr, "\rmeasured {} of {} views{}", done, all, done == all ? "\n" : "");
-    });
+    const Result<measure::Measurement> measurement =
+        measure::measure(catalogue, plan, [&](int done, int all) {
+            if (terminal)
+                fmt::print(stderr, "\rmeasured {} of {} views{}", done, all,
+                           done == all ? "\n" : "");
+        });
     if (!measurement) return measurement.error();
     const std::string table = report::table(plan, *measurement);
-    for (const auto& [name, text] : {std::pair{"results.json", report::to_json(plan, *measurement, scene->map_arguments)},
-                                     std::pair{"results.csv", report::to_csv(plan, *measurement, scene->map_arguments)},
-                                     std::pair{"table.txt", table}})
-        if (Status status = write_product((folder / name).string(), text, false); !status) return status;
+    for (const auto& [name, text] :
+         {std::pair{"results.json", report::to_json(plan, *measurement, scene->map_arguments)},
+          std::pair{"results.csv", report::to_csv(plan, *measurement, scene->map_arguments)},
+          std::pair{"table.txt", table}})
+        if (Status status = write_product((folder / name).string(), text, false); !status)
+            return status;
     if (Status status = write_sheets(catalogue, plan, folder); !status) return status;
     return write_product("-", table, false);
 }
 
 Status bake_normal(const BakeOptions& options) {
     if (options.kernel != "central" && options.kernel != "sobel")
-        return input_error("option-value", fmt::format("--kernel is central or sobel, not '{}'", options.kernel));
+        return input_error("option-value",
+                           fmt::format("--kernel is central or sobel, not '{}'", options.kernel));
     if (options.wrap != "repeat" && options.wrap != "clamp")
-        return input_error("option-value", fmt::format("--wrap is repeat or clamp, not '{}'", options.wrap));
+        return input_error("option-value",
+                           fmt::format("--wrap is repeat or clamp, not '{}'", options.wrap));
     const Result<maps::Image> source = maps::read_png(options.input);
     if (!source) return source.error();
     const Result<maps::Image> heights = maps::heights_of(*source, maps::HeightSource::Automatic);
     if (!heights) return heights.error();
-    Result<maps::Image> normals =
-        maps::bake_normal(*heights, options.scale, options.kernel == "central" ? maps::NormalKernel::Central : maps::NormalKernel::Sobel,
-                          options.wrap == "repeat" ? maps::Wrap::Repeat : maps::Wrap::Clamp);
+    Result<maps::Image> normals = maps::bake_normal(
+        *heights, options.scale,
+        options.kernel == "central" ? maps::NormalKernel::Central : maps::NormalKernel::Sobel,
+        options.wrap == "repeat" ? maps::Wrap::Repeat : maps::Wrap::Clamp);
     if (normals && options.keep_height) normals = maps::with_height_in_alpha(*normals, *heights);
     if (!normals) return normals.error();
     return maps::write_png(options.output, *normals);

@@ -19,27 +19,39 @@ Result<VariantRequest> request_of(const VariantOptions& options) {
     request.per_vertex = options.per_vertex;
     for (const std::string& knob : options.knobs) {
         const std::size_t equals = knob.find('=');
-        if (equals == std::string::npos) return input_error("knob-syntax", fmt::format("'{}' is not of the form knob=value", knob));
+        if (equals == std::string::npos)
+            return input_error("knob-syntax",
+                               fmt::format("'{}' is not of the form knob=value", knob));
         request.knobs.emplace_back(knob.substr(0, equals), knob.substr(equals + 1));
     }
     for (const std::string& loop : options.loops) {
         const std::size_t equals = loop.find('=');
         const std::string form = equals == std::string::npos ? "" : loop.substr(equals + 1);
         if (form != "unroll" && form != "loop")
-            return input_error("loop-syntax", fmt::format("'{}' is not of the form name=unroll or name=loop", loop));
-        request.loop_forms[loop.substr(0, equals)] = form == "unroll" ? ir::LoopForm::Unrolled : ir::LoopForm::Rolled;
+            return input_error(
+                "loop-syntax",
+                fmt::format("'{}' is not of the form name=unroll or name=loop", loop));
+        request.loop_forms[loop.substr(0, equals)] =
+            form == "unroll" ? ir::LoopForm::Unrolled : ir::LoopForm::Rolled;
     }
     return request;
 }
 
 Result<Size> parse_size(const std::string& text) {
-    const auto bad = [&] { return input_error("size", fmt::format("'{}' is not a size of the form 256x128, each side 1 to 16384", text)); };
+    const auto bad = [&] {
+        return input_error(
+            "size",
+            fmt::format("'{}' is not a size of the form 256x128, each side 1 to 16384", text));
+    };
     const std::size_t x = text.find('x');
     if (x == std::string::npos) return bad();
     Size size{};
-    for (auto [part, number] : {std::pair{text.substr(0, x), &size.width}, std::pair{text.substr(x + 1), &size.height}}) {
+    for (auto [part, number] :
+         {std::pair{text.substr(0, x), &size.width}, std::pair{text.substr(x + 1), &size.height}}) {
         const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), *number);
-        if (error != std::errc() || end != part.data() + part.size() || *number < 1 || *number > 16384) return bad();
+        if (error != std::errc() || end != part.data() + part.size() || *number < 1 ||
+            *number > 16384)
+            return bad();
     }
     return size;
 }
@@ -52,9 +64,15 @@ Result<measure::Filtering> filtering_of(const std::string& name) {
 
 Result<measure::MapSet> map_set_of(const MapOptions& options) {
     if (!(options.scale >= 0 && options.scale <= 1))
-        return input_error("scale-range", fmt::format("the scale is the depth of the relief in texture units, 0 to 1; {} is out of range", options.scale));
+        return input_error(
+            "scale-range",
+            fmt::format(
+                "the scale is the depth of the relief in texture units, 0 to 1; {} is out of range",
+                options.scale));
     if (options.maker.empty() && options.height.empty())
-        return input_error("no-map", "a height map is needed: --height MAP.png, or --maker NAME for a procedural one");
+        return input_error(
+            "no-map",
+            "a height map is needed: --height MAP.png, or --maker NAME for a procedural one");
     if (options.maker.empty()) {
         measure::MapFiles files{options.height, {}, {}};
         if (!options.normal.empty()) files.normal = options.normal;
@@ -63,7 +81,8 @@ Result<measure::MapSet> map_set_of(const MapOptions& options) {
     }
     const Result<Size> size = parse_size(options.map_size);
     if (!size) return size.error();
-    return measure::make_map_set(options.maker, size->width, size->height, options.scale, options.seed);
+    return measure::make_map_set(options.maker, size->width, size->height, options.scale,
+                                 options.seed);
 }
 
 Status write_product(const std::string& output, std::string_view bytes, bool binary) {
@@ -72,8 +91,10 @@ Status write_product(const std::string& output, std::string_view bytes, bool bin
         return maps::write_file(output, {data, bytes.size()});
     }
     if (binary && isatty(STDOUT_FILENO))
-        return input_error("binary-to-terminal", "this target is binary; give a file with -o, or pipe it");
-    if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0)
+        return input_error("binary-to-terminal",
+                           "this target is binary; give a file with -o, or pipe it");
+    if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() ||
+        std::fflush(stdout) != 0)
         return input_error("file-unwritable", "cannot write to stdout");
     return Done{};
 }

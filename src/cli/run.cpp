@@ -13,14 +13,21 @@ namespace intaglio::cli {
 namespace {
 
 Status check_options(const RunOptions& options) {
-    if (options.mesh != "map" && options.mesh != "quad" && options.mesh != "sphere" && options.mesh != "torus")
-        return input_error("option-value", fmt::format("--mesh is map, quad, sphere or torus, not '{}'", options.mesh));
+    if (options.mesh != "map" && options.mesh != "quad" && options.mesh != "sphere" &&
+        options.mesh != "torus")
+        return input_error(
+            "option-value",
+            fmt::format("--mesh is map, quad, sphere or torus, not '{}'", options.mesh));
     if (!options.error_map.empty() && options.mesh != "map")
-        return input_error("option-value", "--error-map needs --mesh map: the reference knows flat reliefs");
+        return input_error("option-value",
+                           "--error-map needs --mesh map: the reference knows flat reliefs");
     for (double elevation : {options.elevation, options.light_elevation})
         if (!(elevation >= -90 && elevation <= 90))
-            return input_error("option-value", fmt::format("an elevation is -90 to 90 degrees; {} is not", elevation));
-    if (!(options.distance >= 0) || !std::isfinite(options.distance) || !(options.repeat > 0) || !std::isfinite(options.repeat))
+            return input_error(
+                "option-value",
+                fmt::format("an elevation is -90 to 90 degrees; {} is not", elevation));
+    if (!(options.distance >= 0) || !std::isfinite(options.distance) || !(options.repeat > 0) ||
+        !std::isfinite(options.repeat))
         return input_error("option-value", "--distance and --repeat are positive numbers");
     return Done{};
 }
@@ -49,7 +56,8 @@ Result<measure::MeshView> mesh_view(const RunOptions& options, Size size) {
     };
     const std::array<double, 3> to_eye = exact(options.elevation, options.azimuth);
     vulkan::Point eye{};
-    for (std::size_t i = 0; i < 3; ++i) eye[i] = target[i] + static_cast<float>(distance * to_eye[i]);
+    for (std::size_t i = 0; i < 3; ++i)
+        eye[i] = target[i] + static_cast<float>(distance * to_eye[i]);
     const std::array<double, 3> to_light = exact(options.light_elevation, options.light_azimuth);
     for (std::size_t i = 0; i < 3; ++i) view.light[i] = static_cast<float>(to_light[i]);
     vulkan::Perspective perspective;
@@ -65,25 +73,35 @@ Result<measure::MeshView> mesh_view(const RunOptions& options, Size size) {
 Status check_validation(const vulkan::Device& device) {
     const std::vector<std::string> messages = device.validation_messages();
     if (messages.empty()) return Done{};
-    return internal_error("vulkan-validation", "the Vulkan validation layer complains: " + messages.front());
+    return internal_error("vulkan-validation",
+                          "the Vulkan validation layer complains: " + messages.front());
 }
 
 measure::Shot shot_of(const RunOptions& options, Size size) {
-    return {{options.elevation, options.azimuth}, {options.light_elevation, options.light_azimuth}, options.map.scale, size.width, size.height};
+    return {{options.elevation, options.azimuth},
+            {options.light_elevation, options.light_azimuth},
+            options.map.scale,
+            size.width,
+            size.height};
 }
 
-Status write_error_map(const std::vector<measure::HitError>& errors, const std::string& path, Size size) {
+Status write_error_map(const std::vector<measure::HitError>& errors, const std::string& path,
+                       Size size) {
     const measure::HitStatistics s = measure::summarize(errors, size.width);
-    fmt::print(stderr, "hit error in texels: median {:.3g}, p95 {:.3g}, p99 {:.3g}, max {:.3g} at pixel ({}, {}); missed {} of {}; NaN {}\n",
+    fmt::print(stderr,
+               "hit error in texels: median {:.3g}, p95 {:.3g}, p99 {:.3g}, max {:.3g} at pixel "
+               "({}, {}); missed {} of {}; NaN {}\n",
                s.median, s.p95, s.p99, s.max, s.worst_x, s.worst_y, s.missed, s.pixels, s.invalid);
     return maps::write_png(path, report::error_map(errors, size.width));
 }
 
-Result<vulkan::Picture> draw_mesh(const vulkan::Device& device, const check::Program& shaders, const measure::Textures& textures,
-                                  const RunOptions& options, Size size) {
+Result<vulkan::Picture> draw_mesh(const vulkan::Device& device, const check::Program& shaders,
+                                  const measure::Textures& textures, const RunOptions& options,
+                                  Size size) {
     const Result<measure::MeshView> view = mesh_view(options, size);
     if (!view) return view.error();
-    Result<vulkan::Program> program = measure::prepare_mesh(device, shaders, textures, options.map.scale, size.width, size.height, *view);
+    Result<vulkan::Program> program = measure::prepare_mesh(
+        device, shaders, textures, options.map.scale, size.width, size.height, *view);
     if (!program) return program.error();
     Result<std::vector<vulkan::Picture>> pictures = program->draw();
     if (!pictures) return pictures.error();
@@ -106,19 +124,22 @@ Status run(const dsl::Catalogue& catalogue, const RunOptions& options) {
     if (!shaders) return shaders.error();
     const Result<measure::MapSet> set = map_set_of(options.map);
     if (!set) return set.error();
-    const Result<vulkan::Device> device = vulkan::Device::create({options.device, options.validation});
+    const Result<vulkan::Device> device =
+        vulkan::Device::create({options.device, options.validation});
     if (!device) return device.error();
 
     const measure::Textures textures(*set, *filtering);
-    const Result<vulkan::Picture> picture = options.mesh == "map"
-                                                ? measure::draw_shot(*device, catalogue, *request, textures, shot_of(options, *size))
-                                                : draw_mesh(*device, *shaders, textures, options, *size);
+    const Result<vulkan::Picture> picture =
+        options.mesh == "map"
+            ? measure::draw_shot(*device, catalogue, *request, textures, shot_of(options, *size))
+            : draw_mesh(*device, *shaders, textures, options, *size);
     if (!picture) return picture.error();
     if (!options.error_map.empty()) {
-        const Result<std::vector<measure::HitError>> errors =
-            measure::shot_errors(*device, catalogue, *request, *set, textures, shot_of(options, *size));
+        const Result<std::vector<measure::HitError>> errors = measure::shot_errors(
+            *device, catalogue, *request, *set, textures, shot_of(options, *size));
         if (!errors) return errors.error();
-        if (Status status = write_error_map(*errors, options.error_map, *size); !status) return status;
+        if (Status status = write_error_map(*errors, options.error_map, *size); !status)
+            return status;
     }
     if (Status status = check_validation(*device); !status) return status;
     return maps::write_png(options.output, report::to_image(*picture));

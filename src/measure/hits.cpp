@@ -13,8 +13,10 @@ reference::Vec2 pixel_uv(int x, int y, int width, int height) {
     return {(x + 0.5) / width, (y + 0.5) / height};
 }
 
-// Where on the ray, 0 at the polygon and 1 at the deepest point, a reported coordinate lies; 0 where the ray does not move.
-double ray_parameter(reference::Vec2 uv, reference::Vec2 reported, reference::Vec3 view, double scale) {
+// Where on the ray, 0 at the polygon and 1 at the deepest point, a reported coordinate lies; 0
+// where the ray does not move.
+double ray_parameter(reference::Vec2 uv, reference::Vec2 reported, reference::Vec3 view,
+                     double scale) {
     const double reach_x = view.x / view.z * scale, reach_y = view.y / view.z * scale;
     const double squared = reach_x * reach_x + reach_y * reach_y;
     if (!(squared > 0)) return 0;
@@ -41,16 +43,18 @@ double percentile(const std::vector<float>& sorted, double share) {
 
 }  // namespace
 
-ExactPicture trace_exact(const reference::HeightField& field, Direction view, Direction light, float scale, int width,
-                         int height) {
-    ExactPicture exact{width, height, std::vector<reference::Hit>(static_cast<std::size_t>(width * height)), {}};
+ExactPicture trace_exact(const reference::HeightField& field, Direction view, Direction light,
+                         float scale, int width, int height) {
+    ExactPicture exact{
+        width, height, std::vector<reference::Hit>(static_cast<std::size_t>(width * height)), {}};
     std::vector<char> lit(exact.hits.size());
     const reference::Vec3 v = exact_vector(vector_of(view));
     const reference::Vec3 l = exact_vector(vector_of(light));
     for_each_row(height, [&](int y) {
         for (int x = 0; x < width; ++x) {
             const std::size_t pixel = static_cast<std::size_t>(y * width + x);
-            const reference::Hit hit = reference::first_hit(field, pixel_uv(x, y, width, height), v, scale);
+            const reference::Hit hit =
+                reference::first_hit(field, pixel_uv(x, y, width, height), v, scale);
             exact.hits[pixel] = hit;
             lit[pixel] = reference::lit(field, hit.uv, hit.height, l, scale);
         }
@@ -60,7 +64,8 @@ ExactPicture trace_exact(const reference::HeightField& field, Direction view, Di
 }
 
 std::vector<HitError> compare_hits(const vulkan::Picture& displaced, const ExactPicture& exact,
-                                   const reference::HeightField& field, Direction view, float scale) {
+                                   const reference::HeightField& field, Direction view,
+                                   float scale) {
     std::vector<HitError> errors(exact.hits.size());
     const reference::Vec3 v = exact_vector(vector_of(view));
     for_each_row(exact.height, [&](int y) {
@@ -69,7 +74,8 @@ std::vector<HitError> compare_hits(const vulkan::Picture& displaced, const Exact
             const std::array<float, 4>& reported = displaced.pixels[pixel];
             const reference::Hit& hit = exact.hits[pixel];
             HitError& error = errors[pixel];
-            error.invalid = std::any_of(reported.begin(), reported.end(), [](float c) { return !std::isfinite(c); });
+            error.invalid = std::any_of(reported.begin(), reported.end(),
+                                        [](float c) { return !std::isfinite(c); });
             if (error.invalid) {
                 error.texels = std::numeric_limits<float>::infinity();
                 continue;
@@ -80,7 +86,8 @@ std::vector<HitError> compare_hits(const vulkan::Picture& displaced, const Exact
             error.height = static_cast<float>(std::abs(reported[2] - hit.height));
             const reference::Vec2 uv = pixel_uv(x, y, exact.width, exact.height);
             const double reported_t = ray_parameter(uv, {reported[0], reported[1]}, v, scale);
-            error.missed = hit.found && reference::leaves_relief(field, uv, v, scale, hit.t, std::min(reported_t, 1.0));
+            error.missed = hit.found && reference::leaves_relief(field, uv, v, scale, hit.t,
+                                                                 std::min(reported_t, 1.0));
             error.shadow_wrong = error.texels < 1 && (reported[3] >= 0.5f) != exact.lit[pixel];
         }
     });

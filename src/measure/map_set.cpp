@@ -21,7 +21,8 @@ maps::Image grey_of(const maps::Image& heights) {
 }
 
 Result<maps::Image> normals_with_heights(const maps::Image& heights, double scale) {
-    const Result<maps::Image> normals = maps::bake_normal(heights, scale, maps::NormalKernel::Central, maps::Wrap::Repeat);
+    const Result<maps::Image> normals =
+        maps::bake_normal(heights, scale, maps::NormalKernel::Central, maps::Wrap::Repeat);
     if (!normals) return normals;
     return maps::with_height_in_alpha(*normals, heights);
 }
@@ -29,27 +30,34 @@ Result<maps::Image> normals_with_heights(const maps::Image& heights, double scal
 // Four floats a texel; missing colour channels repeat the first, missing alpha is 1.
 std::vector<float> rgba_of(const maps::Image& image) {
     std::vector<float> texels;
-    texels.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 4);
+    texels.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
+                   4);
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x)
             for (int c = 0; c < 4; ++c) {
                 const bool alpha = c == 3;
-                if (alpha) texels.push_back(image.channels == 4 ? image.at(x, y, 3) : image.channels == 2 ? image.at(x, y, 1) : 1.0f);
-                else texels.push_back(image.at(x, y, image.channels >= 3 ? c : 0));
+                if (alpha)
+                    texels.push_back(image.channels == 4   ? image.at(x, y, 3)
+                                     : image.channels == 2 ? image.at(x, y, 1)
+                                                           : 1.0f);
+                else
+                    texels.push_back(image.at(x, y, image.channels >= 3 ? c : 0));
             }
     return texels;
 }
 
 vulkan::Texture::Format format_of(const maps::Image& image, Filtering filtering) {
     if (filtering == Filtering::Float) return vulkan::Texture::Format::Rgba32Float;
-    return image.bits == 8 ? vulkan::Texture::Format::Rgba8Unorm : vulkan::Texture::Format::Rgba16Unorm;
+    return image.bits == 8 ? vulkan::Texture::Format::Rgba8Unorm
+                           : vulkan::Texture::Format::Rgba16Unorm;
 }
 
 vulkan::Texture texture_of(const maps::Image& image, vulkan::Texture::Format format) {
     vulkan::Texture texture;
     texture.width = image.width;
     texture.height = image.height;
-    for (const maps::Image& level : maps::mip_chain(image)) texture.levels.push_back(rgba_of(level));
+    for (const maps::Image& level : maps::mip_chain(image))
+        texture.levels.push_back(rgba_of(level));
     texture.format = format;
     return texture;
 }
@@ -68,8 +76,10 @@ reference::HeightField MapSet::height_field(reference::FilterWeights weights) co
 Result<MapSet> load_map_set(const MapFiles& files, double scale) {
     MapSet set;
     set.name = files.height.stem().string();
-    // Maps of one surface share a folder and are called after their role: the folder is the better name.
-    if (set.name == "height" || set.name == "normal_height") set.name = files.height.parent_path().filename().string();
+    // Maps of one surface share a folder and are called after their role: the folder is the better
+    // name.
+    if (set.name == "height" || set.name == "normal_height")
+        set.name = files.height.parent_path().filename().string();
     const Result<maps::Image> source = maps::read_png(files.height);
     if (!source) return source.error();
     Result<maps::Image> heights = maps::heights_of(*source, maps::HeightSource::Automatic);
@@ -77,14 +87,20 @@ Result<MapSet> load_map_set(const MapFiles& files, double scale) {
     set.heights = std::move(*heights);
 
     const bool packed = source->channels == 4 && !files.normal;
-    Result<maps::Image> normals = packed ? Result<maps::Image>(*source) : normals_with_heights(set.heights, scale);
+    Result<maps::Image> normals =
+        packed ? Result<maps::Image>(*source) : normals_with_heights(set.heights, scale);
     if (files.normal) {
         const Result<maps::Image> given = maps::read_png(*files.normal);
         if (!given) return given.error();
         if (given->width != set.heights.width || given->height != set.heights.height)
-            return input_error("map-sizes", fmt::format("the normal map is {} x {}, the height map {} x {}", given->width, given->height,
-                                                        set.heights.width, set.heights.height), files.normal->string());
-        if (given->channels < 3) return input_error("map-channels", "a normal map needs three colour channels", files.normal->string());
+            return input_error(
+                "map-sizes",
+                fmt::format("the normal map is {} x {}, the height map {} x {}", given->width,
+                            given->height, set.heights.width, set.heights.height),
+                files.normal->string());
+        if (given->channels < 3)
+            return input_error("map-channels", "a normal map needs three colour channels",
+                               files.normal->string());
         normals = maps::with_height_in_alpha(*given, set.heights);
     }
     if (!normals) return normals.error();
@@ -99,7 +115,8 @@ Result<MapSet> load_map_set(const MapFiles& files, double scale) {
     return set;
 }
 
-Result<MapSet> make_map_set(const std::string& maker, int width, int height, double scale, std::uint32_t seed) {
+Result<MapSet> make_map_set(const std::string& maker, int width, int height, double scale,
+                            std::uint32_t seed) {
     MapSet set;
     set.name = maker;
     Result<maps::Image> heights = maps::make_height_map(maker, width, height, seed);

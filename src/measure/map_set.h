@@ -1,4 +1,5 @@
-// The maps that a surface wears: heights, normals with heights in alpha, and colours, all from one source.
+// The maps that a surface wears: heights, normals with heights in alpha, and colours, all from one
+// source.
 #pragma once
 
 #include <filesystem>
@@ -21,19 +22,21 @@ struct MapSet {
     reference::HeightField height_field(reference::FilterWeights weights) const;
 };
 
-// What of a map set is given as files; the rest is made: normals are baked from the heights with the relief's scale,
-// colours are a grey shade of the heights.
+// What of a map set is given as files; the rest is made: normals are baked from the heights with
+// the relief's scale, colours are a grey shade of the heights.
 struct MapFiles {
-    std::filesystem::path height;  // any PNG; heights in alpha where it has one that varies, else in red or gray
+    std::filesystem::path
+        height;  // any PNG; heights in alpha where it has one that varies, else in red or gray
     std::optional<std::filesystem::path> normal;
     std::optional<std::filesystem::path> colour;
 };
 
-// `scale`: depth of the relief in texture units, for baked normals.  Errors: those of maps::read_png, "map-sizes"
-// where the normal map has another size than the height map.
+// `scale`: depth of the relief in texture units, for baked normals.  Errors: those of
+// maps::read_png, "map-sizes" where the normal map has another size than the height map.
 Result<MapSet> load_map_set(const MapFiles& files, double scale);
 // A procedural map by the name of its maker (maps::makers()).
-Result<MapSet> make_map_set(const std::string& maker, int width, int height, double scale, std::uint32_t seed = 1);
+Result<MapSet> make_map_set(const std::string& maker, int width, int height, double scale,
+                            std::uint32_t seed = 1);
 
 enum class Filtering {
     Float,   // texels as float32, filtered exactly: what is left is the technique's own error

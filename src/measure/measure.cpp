@@ -12,7 +12,8 @@
 namespace intaglio::measure {
 namespace {
 
-// A row's two shaders: the one that says where it hit and how much it read, and the one people would ship.
+// A row's two shaders: the one that says where it hit and how much it read, and the one people
+// would ship.
 struct CompiledRow {
     check::Program instrumented;
     check::Program shaded;
@@ -30,7 +31,8 @@ Result<CompiledRow> compile_row(const dsl::Catalogue& catalogue, const VariantRe
     row.shaded = std::move(*linked);
     const Result<check::SpirvWords> optimized = check::optimize_spirv(row.shaded.pixel);
     if (!optimized) return optimized.error();
-    const Result<check::SpirvCost> cost = check::count_spirv(*optimized, longest_loop(shaded->program));
+    const Result<check::SpirvCost> cost =
+        check::count_spirv(*optimized, longest_loop(shaded->program));
     if (!cost) return cost.error();
     row.cost = *cost;
 
@@ -53,9 +55,11 @@ double median(std::vector<double> values) {
 }
 
 std::int64_t count_invalid(const vulkan::Picture& picture) {
-    return std::count_if(picture.pixels.begin(), picture.pixels.end(), [](const std::array<float, 4>& pixel) {
-        return !std::all_of(pixel.begin(), pixel.end(), [](float c) { return std::isfinite(c); });
-    });
+    return std::count_if(picture.pixels.begin(), picture.pixels.end(),
+                         [](const std::array<float, 4>& pixel) {
+                             return !std::all_of(pixel.begin(), pixel.end(),
+                                                 [](float c) { return std::isfinite(c); });
+                         });
 }
 
 void count_reads(const vulkan::Picture& reads, CaseResult& result) {
@@ -73,13 +77,15 @@ struct PreparedMap {
     std::vector<vulkan::Program> instrumented, shaded;
 };
 
-Result<PreparedMap> prepare_map(const vulkan::Device& device, const Plan& plan, const std::vector<CompiledRow>& rows,
-                                const MapSet& set) {
+Result<PreparedMap> prepare_map(const vulkan::Device& device, const Plan& plan,
+                                const std::vector<CompiledRow>& rows, const MapSet& set) {
     PreparedMap prepared{set.height_field(reference::FilterWeights::Exact), {}, {}};
     const Textures textures(set, plan.filtering);
     for (const CompiledRow& row : rows) {
-        for (auto [shaders, programs] : {std::pair{&row.instrumented, &prepared.instrumented}, std::pair{&row.shaded, &prepared.shaded}}) {
-            Result<vulkan::Program> program = prepare_quad(device, *shaders, textures, plan.scale, plan.size, plan.size);
+        for (auto [shaders, programs] : {std::pair{&row.instrumented, &prepared.instrumented},
+                                         std::pair{&row.shaded, &prepared.shaded}}) {
+            Result<vulkan::Program> program =
+                prepare_quad(device, *shaders, textures, plan.scale, plan.size, plan.size);
             if (!program) return program.error();
             programs->push_back(std::move(*program));
         }
@@ -88,7 +94,8 @@ Result<PreparedMap> prepare_map(const vulkan::Device& device, const Plan& plan, 
 }
 
 // Times all rows in turn, round after round, so that what else the machine does falls on all alike.
-Status time_rows(const Plan& plan, std::vector<vulkan::Program>& programs, std::vector<CaseResult>& results) {
+Status time_rows(const Plan& plan, std::vector<vulkan::Program>& programs,
+                 std::vector<CaseResult>& results) {
     std::vector<std::vector<double>> times(programs.size()), ratios(programs.size());
     for (int round = 0; round < plan.rounds; ++round) {
         for (std::size_t row = 0; row < programs.size(); ++row) {
@@ -105,9 +112,11 @@ Status time_rows(const Plan& plan, std::vector<vulkan::Program>& programs, std::
     return Done{};
 }
 
-Result<std::vector<CaseResult>> measure_view(const Plan& plan, PreparedMap& prepared, int map, Direction view, Direction light) {
+Result<std::vector<CaseResult>> measure_view(const Plan& plan, PreparedMap& prepared, int map,
+                                             Direction view, Direction light) {
     const float scale = static_cast<float>(plan.scale);
-    const ExactPicture exact = trace_exact(prepared.field, view, light, scale, plan.size, plan.size);
+    const ExactPicture exact =
+        trace_exact(prepared.field, view, light, scale, plan.size, plan.size);
     std::vector<CaseResult> results(plan.rows.size());
     for (std::size_t row = 0; row < plan.rows.size(); ++row) {
         CaseResult& result = results[row];
@@ -119,14 +128,16 @@ Result<std::vector<CaseResult>> measure_view(const Plan& plan, PreparedMap& prep
             if (Status status = aim((*programs)[row], view, light); !status) return status.error();
         const Result<std::vector<vulkan::Picture>> pictures = prepared.instrumented[row].draw();
         if (!pictures) return pictures.error();
-        result.hits = summarize(compare_hits((*pictures)[0], exact, prepared.field, view, scale), plan.size);
+        result.hits =
+            summarize(compare_hits((*pictures)[0], exact, prepared.field, view, scale), plan.size);
         count_reads((*pictures)[1], result);
         const Result<std::vector<vulkan::Picture>> shaded = prepared.shaded[row].draw();
         if (!shaded) return shaded.error();
         result.invalid_colours = count_invalid((*shaded)[0]);
     }
     if (plan.rounds > 0)
-        if (Status status = time_rows(plan, prepared.shaded, results); !status) return status.error();
+        if (Status status = time_rows(plan, prepared.shaded, results); !status)
+            return status.error();
     return results;
 }
 
@@ -153,14 +164,16 @@ Result<Measurement> measure(const dsl::Catalogue& catalogue, const Plan& plan,
         if (!prepared) return prepared.error();
         for (Direction view : plan.views)
             for (Direction light : plan.lights) {
-                Result<std::vector<CaseResult>> results = measure_view(plan, *prepared, static_cast<int>(map), view, light);
+                Result<std::vector<CaseResult>> results =
+                    measure_view(plan, *prepared, static_cast<int>(map), view, light);
                 if (!results) return results.error();
                 measurement.cases.insert(measurement.cases.end(), results->begin(), results->end());
                 if (progress) progress(++done, all);
             }
     }
     if (const std::vector<std::string> messages = device->validation_messages(); !messages.empty())
-        return internal_error("vulkan-validation", "the Vulkan validation layer complains: " + messages.front());
+        return internal_error("vulkan-validation",
+                              "the Vulkan validation layer complains: " + messages.front());
     return measurement;
 }
 

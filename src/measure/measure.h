@@ -1,5 +1,5 @@
-// Speed against error: draws every variant on every map at every view and light, compares each pixel's hit with the
-// exact reference, and times the variants interleaved.
+// Speed against error: draws every variant on every map at every view and light, compares each
+// pixel's hit with the exact reference, and times the variants interleaved.
 #pragma once
 
 #include <functional>
@@ -17,31 +17,33 @@ struct Plan {
     std::vector<MapSet> maps;
     std::vector<Direction> views;
     std::vector<Direction> lights;
-    double scale = 0.08;       // depth of the relief in texture units
-    int size = 256;            // pixels a side; a power of two, so that coordinates are exact on lavapipe
-    int rounds = 5;            // of interleaved timing; 0: no timing
+    double scale = 0.08;  // depth of the relief in texture units
+    int size = 256;  // pixels a side; a power of two, so that coordinates are exact on lavapipe
+    int rounds = 5;  // of interleaved timing; 0: no timing
     Filtering filtering = Filtering::Float;
-    std::string device;        // see vulkan::DeviceOptions
-    bool validation = false;   // Vulkan validation layers; a message is an error
+    std::string device;       // see vulkan::DeviceOptions
+    bool validation = false;  // Vulkan validation layers; a message is an error
 };
 
 // One variant on one map at one view and light.
 struct CaseResult {
-    int row = 0, map = 0;      // indices into the plan
+    int row = 0, map = 0;  // indices into the plan
     Direction view, light;
     HitStatistics hits;
-    double reads_mean = 0;     // texture reads executed per pixel, counted on the run (search and shadow)
+    double reads_mean =
+        0;  // texture reads executed per pixel, counted on the run (search and shadow)
     int reads_max = 0;
     std::int64_t invalid_colours = 0;  // pixels with NaN or Inf after shading
-    double nanoseconds = 0;    // per pixel, shaded, median of the rounds; 0: not timed
-    double ratio = 0;          // to the first row at the same map, view and light, median of the rounds' ratios
+    double nanoseconds = 0;            // per pixel, shaded, median of the rounds; 0: not timed
+    double ratio =
+        0;  // to the first row at the same map, view and light, median of the rounds' ratios
 };
 
 struct Measurement {
-    std::string device;        // name and driver: whose times these are
-    std::vector<check::SpirvCost> costs;   // of each row's shaded pixel stage
+    std::string device;                              // name and driver: whose times these are
+    std::vector<check::SpirvCost> costs;             // of each row's shaded pixel stage
     std::vector<std::vector<std::string>> settings;  // of each row
-    std::vector<CaseResult> cases;         // by map, view, light, row
+    std::vector<CaseResult> cases;                   // by map, view, light, row
 };
 
 // `progress` is told how many of how many cases are done; it may be empty.

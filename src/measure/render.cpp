@@ -4,12 +4,15 @@
 namespace intaglio::measure {
 namespace {
 
-vulkan::Draw base_draw(const check::Program& shaders, const Textures& textures, int width, int height) {
+vulkan::Draw base_draw(const check::Program& shaders, const Textures& textures, int width,
+                       int height) {
     vulkan::Draw draw;
     // link_to_spirv names every entry point main, whatever the text called it.
     draw.vertex.spirv = shaders.vertex;
     draw.fragment.spirv = shaders.pixel;
-    draw.textures = {{"height_map", &textures.height}, {"normal_map", &textures.normal}, {"colour_map", &textures.colour}};
+    draw.textures = {{"height_map", &textures.height},
+                     {"normal_map", &textures.normal},
+                     {"colour_map", &textures.colour}};
     draw.width = width;
     draw.height = height;
     return draw;
@@ -17,8 +20,9 @@ vulkan::Draw base_draw(const check::Program& shaders, const Textures& textures, 
 
 }  // namespace
 
-Result<vulkan::Program> prepare_quad(const vulkan::Device& device, const check::Program& shaders, const Textures& textures,
-                                     double scale, int width, int height, const Look& look) {
+Result<vulkan::Program> prepare_quad(const vulkan::Device& device, const check::Program& shaders,
+                                     const Textures& textures, double scale, int width, int height,
+                                     const Look& look) {
     const vulkan::Mesh quad = vulkan::quad();
     vulkan::Draw draw = base_draw(shaders, textures, width, height);
     draw.mesh = &quad;
@@ -33,12 +37,14 @@ Status aim(vulkan::Program& program, Direction view, Direction light) {
     return program.set_uniform("light", {l[0], l[1], l[2], 0});
 }
 
-Result<vulkan::Program> prepare_mesh(const vulkan::Device& device, const check::Program& shaders, const Textures& textures,
-                                     double scale, int width, int height, const MeshView& view, const Look& look) {
+Result<vulkan::Program> prepare_mesh(const vulkan::Device& device, const check::Program& shaders,
+                                     const Textures& textures, double scale, int width, int height,
+                                     const MeshView& view, const Look& look) {
     vulkan::Draw draw = base_draw(shaders, textures, width, height);
     draw.mesh = &view.mesh;
     draw.uniforms = uniforms_of({}, {}, scale, textures.height.width, textures.height.height, look);
-    draw.uniforms["view_projection"] = {view.camera.view_projection.begin(), view.camera.view_projection.end()};
+    draw.uniforms["view_projection"] = {view.camera.view_projection.begin(),
+                                        view.camera.view_projection.end()};
     draw.uniforms["eye"] = {view.camera.eye[0], view.camera.eye[1], view.camera.eye[2], 1};
     draw.uniforms["light"] = {view.light[0], view.light[1], view.light[2], 0};
     draw.depth_test = true;

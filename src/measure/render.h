@@ -1,4 +1,5 @@
-// A variant with maps, ready to be drawn by the runner: names to values, in one place for pictures and measurements.
+// A variant with maps, ready to be drawn by the runner: names to values, in one place for pictures
+// and measurements.
 #pragma once
 
 #include <vector>
@@ -16,12 +17,16 @@ struct Textures {
     vulkan::Texture height, normal, colour;
 
     Textures(const MapSet& set, Filtering filtering)
-        : height(height_texture(set, filtering)), normal(normal_texture(set, filtering)), colour(colour_texture(set)) {}
+        : height(height_texture(set, filtering)),
+          normal(normal_texture(set, filtering)),
+          colour(colour_texture(set)) {}
 };
 
-// A quad over [0, 1]^2 of texture space, seen from infinity: every pixel has the same view and light.
-Result<vulkan::Program> prepare_quad(const vulkan::Device& device, const check::Program& shaders, const Textures& textures,
-                                     double scale, int width, int height, const Look& look = {});
+// A quad over [0, 1]^2 of texture space, seen from infinity: every pixel has the same view and
+// light.
+Result<vulkan::Program> prepare_quad(const vulkan::Device& device, const check::Program& shaders,
+                                     const Textures& textures, double scale, int width, int height,
+                                     const Look& look = {});
 // Turns the eye and the light of a prepared quad.
 Status aim(vulkan::Program& program, Direction view, Direction light);
 
@@ -31,7 +36,8 @@ struct MeshView {
     vulkan::Camera camera;
     std::array<float, 3> light;
 };
-Result<vulkan::Program> prepare_mesh(const vulkan::Device& device, const check::Program& shaders, const Textures& textures,
-                                     double scale, int width, int height, const MeshView& view, const Look& look = {});
+Result<vulkan::Program> prepare_mesh(const vulkan::Device& device, const check::Program& shaders,
+                                     const Textures& textures, double scale, int width, int height,
+                                     const MeshView& view, const Look& look = {});
 
 }  // namespace intaglio::measure

@@ -1,4 +1,5 @@
-// One picture of a variant on a quad seen from infinity, and its errors: what people look at beside the numbers.
+// One picture of a variant on a quad seen from infinity, and its errors: what people look at beside
+// the numbers.
 #pragma once
 
 #include <vector>
@@ -16,11 +17,14 @@ struct Shot {
 };
 
 // The variant's first colour target.
-Result<vulkan::Picture> draw_shot(const vulkan::Device& device, const dsl::Catalogue& catalogue, const VariantRequest& request,
-                                  const Textures& textures, const Shot& shot);
+Result<vulkan::Picture> draw_shot(const vulkan::Device& device, const dsl::Catalogue& catalogue,
+                                  const VariantRequest& request, const Textures& textures,
+                                  const Shot& shot);
 
 // The error of each pixel's hit against the exact one, whatever the surface writes.
-Result<std::vector<HitError>> shot_errors(const vulkan::Device& device, const dsl::Catalogue& catalogue, VariantRequest request,
-                                          const MapSet& set, const Textures& textures, const Shot& shot);
+Result<std::vector<HitError>> shot_errors(const vulkan::Device& device,
+                                          const dsl::Catalogue& catalogue, VariantRequest request,
+                                          const MapSet& set, const Textures& textures,
+                                          const Shot& shot);
 
 }  // namespace intaglio::measure

@@ -13,15 +13,21 @@ std::array<float, 3> vector_of(Direction direction) {
     if (direction.elevation == 90) return {0.0f, 0.0f, 1.0f};
     const double elevation = direction.elevation * std::numbers::pi / 180;
     const double azimuth = direction.azimuth * std::numbers::pi / 180;
-    const auto snapped = [](double value) { return std::abs(value) < 1e-15 ? 0.0f : static_cast<float>(value); };
-    return {snapped(std::cos(elevation) * std::cos(azimuth)), snapped(std::cos(elevation) * std::sin(azimuth)),
+    const auto snapped = [](double value) {
+        return std::abs(value) < 1e-15 ? 0.0f : static_cast<float>(value);
+    };
+    return {snapped(std::cos(elevation) * std::cos(azimuth)),
+            snapped(std::cos(elevation) * std::sin(azimuth)),
             static_cast<float>(std::sin(elevation))};
 }
 
-reference::Vec3 exact_vector(const std::array<float, 3>& vector) { return {vector[0], vector[1], vector[2]}; }
+reference::Vec3 exact_vector(const std::array<float, 3>& vector) {
+    return {vector[0], vector[1], vector[2]};
+}
 
-std::map<std::string, std::vector<float>> uniforms_of(Direction view, Direction light, double scale, int map_width,
-                                                      int map_height, const Look& look) {
+std::map<std::string, std::vector<float>> uniforms_of(Direction view, Direction light, double scale,
+                                                      int map_width, int map_height,
+                                                      const Look& look) {
     const std::array<float, 3> v = vector_of(view);
     const std::array<float, 3> l = vector_of(light);
     const vulkan::Camera camera = vulkan::map_quad();

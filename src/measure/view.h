@@ -10,8 +10,8 @@
 
 namespace intaglio::measure {
 
-// A direction in tangent space.  Elevation 90 is straight above the surface, 0 is its horizon; azimuth 0 is along +u,
-// 90 along +v.  Degrees.
+// A direction in tangent space.  Elevation 90 is straight above the surface, 0 is its horizon;
+// azimuth 0 is along +u, 90 along +v.  Degrees.
 struct Direction {
     double elevation = 90;
     double azimuth = 0;
@@ -29,8 +29,10 @@ struct Look {
     float gloss = 0.25f;
 };
 
-// Values for every uniform of the templates, by name: the eye and the light at infinity, the world unmoved.
-std::map<std::string, std::vector<float>> uniforms_of(Direction view, Direction light, double scale, int map_width,
-                                                      int map_height, const Look& look = {});
+// Values for every uniform of the templates, by name: the eye and the light at infinity, the world
+// unmoved.
+std::map<std::string, std::vector<float>> uniforms_of(Direction view, Direction light, double scale,
+                                                      int map_width, int map_height,
+                                                      const Look& look = {});
 
 }  // namespace intaglio::measure

@@ -169,10 +169,12 @@ bool lit(const HeightField& field, Vec2 uv, double height, Vec3 light, double sc
     });
 }
 
-bool leaves_relief(const HeightField& field, Vec2 uv, Vec3 view, double scale, double t_begin, double t_end,
-                   double tolerance) {
+bool leaves_relief(const HeightField& field, Vec2 uv, Vec3 view, double scale, double t_begin,
+                   double t_end, double tolerance) {
     const Slope slope = slope_of(field, uv, view, scale);
-    if (!slope.usable || !(t_begin >= 0) || !(t_end <= 1) || !(t_begin < t_end) || !(tolerance >= 0)) return false;
+    if (!slope.usable || !(t_begin >= 0) || !(t_end <= 1) || !(t_begin < t_end) ||
+        !(tolerance >= 0))
+        return false;
     const Path path = path_over(field, uv, {-slope.per_height.x, -slope.per_height.y}, 1, -1);
     // Cells that lie wholly below the ray are those it has left: none may be skipped.
     constexpr double no_slack = -std::numeric_limits<double>::infinity();

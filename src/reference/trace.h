@@ -60,13 +60,14 @@ Hit first_hit(const HeightField& field, Vec2 uv, Vec3 view, double scale);
 bool lit(const HeightField& field, Vec2 uv, double height, Vec3 light, double scale,
          double tolerance = contact_tolerance);
 
-// Whether a view ray that has reached the relief at t_begin rises out of it again before t_end: somewhere between, the
-// surface lies more than `tolerance` below the ray,
+// Whether a view ray that has reached the relief at t_begin rises out of it again before t_end:
+// somewhere between, the surface lies more than `tolerance` below the ray,
 //     height_at(uv - V.xy / V.z * scale * t) < 1 - t - tolerance.
-// A search that reports t_end went through a feature then.  The default tolerance is half a step of an 8-bit map:
-// less is not a feature that a map could hold.  False where first_hit has no answer, and where t_end <= t_begin.
-// With 8-bit weights the smooth patches are asked, not the staircase, whose steps are smaller than the tolerance.
-bool leaves_relief(const HeightField& field, Vec2 uv, Vec3 view, double scale, double t_begin, double t_end,
-                   double tolerance = 0.5 / 255);
+// A search that reports t_end went through a feature then.  The default tolerance is half a step of
+// an 8-bit map: less is not a feature that a map could hold.  False where first_hit has no answer,
+// and where t_end <= t_begin. With 8-bit weights the smooth patches are asked, not the staircase,
+// whose steps are smaller than the tolerance.
+bool leaves_relief(const HeightField& field, Vec2 uv, Vec3 view, double scale, double t_begin,
+                   double t_end, double tolerance = 0.5 / 255);
 
 }  // namespace intaglio::reference

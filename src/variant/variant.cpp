@@ -37,12 +37,15 @@ dsl::RecordOptions record_options(const VariantRequest& request) {
     return {request.target, request.loop_forms, request.per_vertex};
 }
 
-// A loop that a person wants kept is kept or refused; a technique's own schedule says what is best where there are loops.
+// A loop that a person wants kept is kept or refused; a technique's own schedule says what is best
+// where there are loops.
 Status check_loops(const VariantRequest& request, const Target& target) {
     if (target.capabilities.loops) return Done{};
     for (const auto& [name, form] : request.loop_forms)
         if (form == ir::LoopForm::Rolled)
-            return input_error("target-limit", fmt::format("the loop {} cannot stay a loop: {} has none", name, target.name));
+            return input_error(
+                "target-limit",
+                fmt::format("the loop {} cannot stay a loop: {} has none", name, target.name));
     return Done{};
 }
 
@@ -50,7 +53,8 @@ int longest_loop_in(const ir::Region& region) {
     int most = 1;
     for (const ir::Instruction& instruction : region.body) {
         if (instruction.op == ir::Op::Loop) most = std::max(most, instruction.loop.trip_count);
-        for (const ir::Region& inner : instruction.regions) most = std::max(most, longest_loop_in(inner));
+        for (const ir::Region& inner : instruction.regions)
+            most = std::max(most, longest_loop_in(inner));
     }
     return most;
 }
@@ -82,7 +86,8 @@ Result<Variant> make_variant(const dsl::Catalogue& catalogue, const VariantReque
 
 Result<Product> product_of(const Variant& variant, ir::Stage stage) {
     const Artifact& artifact = stage == ir::Stage::Vertex ? variant.vertex : variant.pixel;
-    if (variant.target->derived_from.empty()) return Product{artifact.text, artifact.extension, false};
+    if (variant.target->derived_from.empty())
+        return Product{artifact.text, artifact.extension, false};
     const check::Source source = source_of(variant, stage);
     const std::string stage_extension = stage == ir::Stage::Vertex ? ".vert" : ".frag";
     if (variant.target->name == "spirv") {
@@ -95,14 +100,16 @@ Result<Product> product_of(const Variant& variant, ir::Stage stage) {
     return Product{std::move(*text), stage_extension + ".metal", false};
 }
 
-Result<Artifact> make_function(const dsl::Catalogue& catalogue, const VariantRequest& request, dsl::FunctionPart part,
-                               Binding binding, const EmitOptions& options) {
+Result<Artifact> make_function(const dsl::Catalogue& catalogue, const VariantRequest& request,
+                               dsl::FunctionPart part, Binding binding,
+                               const EmitOptions& options) {
     const Result<const Target*> target = target_of(request);
     if (!target) return target.error();
     if (Status status = check_loops(request, **target); !status) return status.error();
     const Result<dsl::Surface> surface = surface_of(catalogue, request);
     if (!surface) return surface.error();
-    const Result<ir::Program> program = dsl::record_function(*surface, part, record_options(request));
+    const Result<ir::Program> program =
+        dsl::record_function(*surface, part, record_options(request));
     if (!program) return program.error();
     return emit_function(*program, **target, binding, options);
 }
@@ -111,9 +118,10 @@ std::optional<check::Language> language_of(const Target& target) {
     const std::string_view name = text_target(target).name;
     // What the profiles 2_0 and 2_b can say, 3_0 can say as well.
     if (name == "hlsl_2_0" || name == "hlsl_2_b") return check::Language::Hlsl3;
-    for (check::Language language : {check::Language::Glsl450, check::Language::Glsl330, check::Language::Glsl120,
-                                     check::Language::Essl300, check::Language::Essl100, check::Language::Hlsl5,
-                                     check::Language::Hlsl3})
+    for (check::Language language :
+         {check::Language::Glsl450, check::Language::Glsl330, check::Language::Glsl120,
+          check::Language::Essl300, check::Language::Essl100, check::Language::Hlsl5,
+          check::Language::Hlsl3})
         if (check::name_of(language) == name) return language;
     return std::nullopt;
 }
@@ -121,19 +129,25 @@ std::optional<check::Language> language_of(const Target& target) {
 check::Source source_of(const Variant& variant, ir::Stage stage) {
     const bool vertex = stage == ir::Stage::Vertex;
     const Artifact& artifact = vertex ? variant.vertex : variant.pixel;
-    return {language_of(*variant.target).value_or(check::Language::Glsl450),
-            vertex ? check::Stage::Vertex : check::Stage::Pixel, artifact.text, artifact.entry,
-            fmt::format("{}.{}{}", variant.request.surface, variant.target->name, artifact.extension)};
+    return {
+        language_of(*variant.target).value_or(check::Language::Glsl450),
+        vertex ? check::Stage::Vertex : check::Stage::Pixel, artifact.text, artifact.entry,
+        fmt::format("{}.{}{}", variant.request.surface, variant.target->name, artifact.extension)};
 }
 
 Result<check::Program> link_variant(const Variant& variant) {
     const std::optional<check::Language> language = language_of(*variant.target);
     if (!language)
-        return input_error("not-runnable", fmt::format("target {} is a listing, not a shader that can be run", variant.target->name));
+        return input_error("not-runnable",
+                           fmt::format("target {} is a listing, not a shader that can be run",
+                                       variant.target->name));
     if (!check::has_spirv(*language))
-        return input_error("not-runnable", fmt::format("target {} cannot be run here: no tool makes SPIR-V of its language", variant.target->name));
-    Result<check::Program> program =
-        check::link_to_spirv(source_of(variant, ir::Stage::Vertex), source_of(variant, ir::Stage::Pixel));
+        return input_error(
+            "not-runnable",
+            fmt::format("target {} cannot be run here: no tool makes SPIR-V of its language",
+                        variant.target->name));
+    Result<check::Program> program = check::link_to_spirv(source_of(variant, ir::Stage::Vertex),
+                                                          source_of(variant, ir::Stage::Pixel));
     if (!program || variant.target->name != "spirv") return program;
     for (check::SpirvWords* words : {&program->vertex, &program->pixel}) {
         Result<check::SpirvWords> optimized = check::optimize_spirv(*words);
@@ -146,15 +160,18 @@ Result<check::Program> link_variant(const Variant& variant) {
 Result<Judged> judge_variant(const Variant& variant) {
     const std::optional<check::Language> language = language_of(*variant.target);
     if (!language)
-        return input_error("no-witness", fmt::format("no witness reads target {}", variant.target->name));
+        return input_error("no-witness",
+                           fmt::format("no witness reads target {}", variant.target->name));
     Judged judged;
     for (ir::Stage stage : {ir::Stage::Vertex, ir::Stage::Pixel}) {
         const Result<check::Witnessed> witnessed = check::judge(source_of(variant, stage));
         if (!witnessed) return witnessed.error();
         const std::string_view stage_name = stage == ir::Stage::Vertex ? "vertex" : "pixel";
-        for (const std::string& step : witnessed->steps) judged.steps.push_back(fmt::format("{}: {}", stage_name, step));
+        for (const std::string& step : witnessed->steps)
+            judged.steps.push_back(fmt::format("{}: {}", stage_name, step));
         if (stage == ir::Stage::Pixel && check::has_spirv(*language)) {
-            const Result<check::SpirvCost> cost = check::count_spirv(witnessed->optimized, longest_loop(variant.program));
+            const Result<check::SpirvCost> cost =
+                check::count_spirv(witnessed->optimized, longest_loop(variant.program));
             if (!cost) return cost.error();
             judged.pixel_cost = *cost;
         }

@@ -1,5 +1,5 @@
-// A variant: a surface with its knobs and schedule, on one target.  Here the two arms of the generator meet: the
-// techniques' DSL gives a program, the target gives its text.
+// A variant: a surface with its knobs and schedule, on one target.  Here the two arms of the
+// generator meet: the techniques' DSL gives a program, the target gives its text.
 #pragma once
 
 #include <map>
@@ -14,23 +14,23 @@
 #include "src/check/frontend.h"
 #include "src/check/judge.h"
 
-
 namespace intaglio {
 
 struct VariantRequest {
-    std::string surface;                                      // see dsl::make_surface
-    std::string target;                                       // see all_targets()
-    std::vector<std::pair<std::string, std::string>> knobs;   // name and value as written
-    std::map<std::string, ir::LoopForm> loop_forms;           // by loop name, above the schedule
-    bool per_vertex = false;     // affine functions of interpolants move to the vertex stage
-    bool count_reads = false;    // instrumented: a second colour target `reads` says how many textures a pixel read
+    std::string surface;                                     // see dsl::make_surface
+    std::string target;                                      // see all_targets()
+    std::vector<std::pair<std::string, std::string>> knobs;  // name and value as written
+    std::map<std::string, ir::LoopForm> loop_forms;          // by loop name, above the schedule
+    bool per_vertex = false;  // affine functions of interpolants move to the vertex stage
+    bool count_reads =
+        false;  // instrumented: a second colour target `reads` says how many textures a pixel read
 };
 
 struct Variant {
     VariantRequest request;
-    const Target* target;        // the one asked for
-    ir::Program program;         // as recorded
-    Artifact vertex, pixel;      // text of the target, or of the one it is derived from
+    const Target* target;    // the one asked for
+    ir::Program program;     // as recorded
+    Artifact vertex, pixel;  // text of the target, or of the one it is derived from
 };
 
 // What a user gets for one stage: text, or the bytes of a binary.
@@ -40,29 +40,33 @@ struct Product {
     bool binary = false;
 };
 
-// Records, optimises and prints both stages.  Errors: unknown names with the nearest right one, knobs out of range,
-// and what the target refuses.
+// Records, optimises and prints both stages.  Errors: unknown names with the nearest right one,
+// knobs out of range, and what the target refuses.
 Result<Variant> make_variant(const dsl::Catalogue& catalogue, const VariantRequest& request,
                              const EmitOptions& options = {});
 Result<Product> product_of(const Variant& variant, ir::Stage stage);
 
 // One part of a surface as a function to paste into a shader of one's own.
-Result<Artifact> make_function(const dsl::Catalogue& catalogue, const VariantRequest& request, dsl::FunctionPart part,
-                               Binding binding, const EmitOptions& options = {});
+Result<Artifact> make_function(const dsl::Catalogue& catalogue, const VariantRequest& request,
+                               dsl::FunctionPart part, Binding binding,
+                               const EmitOptions& options = {});
 
 // The language a witness reads a target's text as; nothing for `none`, which no witness reads.
 std::optional<check::Language> language_of(const Target& target);
 check::Source source_of(const Variant& variant, ir::Stage stage);
 
-// Both stages as SPIR-V that fit each other, ready to run.  For the target `spirv` the optimised modules.  Error
-// "not-runnable" for `none`, and for glsl_120 and essl_100, which end after the front end.
+// Both stages as SPIR-V that fit each other, ready to run.  For the target `spirv` the optimised
+// modules.  Error "not-runnable" for `none`, and for glsl_120 and essl_100, which end after the
+// front end.
 Result<check::Program> link_variant(const Variant& variant);
 
 struct Judged {
     std::vector<std::string> steps;  // what each witness accepted, in order
-    check::SpirvCost pixel_cost;     // of the optimised pixel stage; zero where the language has no SPIR-V
+    check::SpirvCost
+        pixel_cost;  // of the optimised pixel stage; zero where the language has no SPIR-V
 };
-// Both stages through every witness there is for the target.  Error "no-witness" for a target without one.
+// Both stages through every witness there is for the target.  Error "no-witness" for a target
+// without one.
 Result<Judged> judge_variant(const Variant& variant);
 
 // The most iterations of any loop of the pixel stage: the bound for longest paths.

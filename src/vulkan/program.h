@@ -31,8 +31,8 @@ struct Draw {
     Stage fragment;
 
     // Vertex inputs called position, normal, tangent and uv get the mesh's; the names may carry one
-    // of the prefixes in_, a_, v_, vertex_, in, a and end in 0, and "pos", "texcoord" and "tex_coord" are
-    // understood (in any case).
+    // of the prefixes in_, a_, v_, vertex_, in, a and end in 0, and "pos", "texcoord" and
+    // "tex_coord" are understood (in any case).
     const Mesh* mesh = nullptr;
     // Members of uniform blocks by member name, array elements one after the other without padding,
     // vectors by component.  Integer members take whole numbers.  One name fills every block that

@@ -1,5 +1,6 @@
-// Normals from a normal map, read at the displaced coordinate.  The level comes from the undisplaced coordinate: at a
-// silhouette inside the relief the displaced one jumps, and its derivatives would pick a wrong level there.
+// Normals from a normal map, read at the displaced coordinate.  The level comes from the
+// undisplaced coordinate: at a silhouette inside the relief the displaced one jumps, and its
+// derivatives would pick a wrong level there.
 #include "templates/all_techniques.h"
 
 namespace intaglio::templates {

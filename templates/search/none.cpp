@@ -1,4 +1,5 @@
-// Plain bump mapping: the surface is where the polygon is, t = s.  Blinn, "Simulation of Wrinkled Surfaces", 1978.
+// Plain bump mapping: the surface is where the polygon is, t = s.  Blinn, "Simulation of Wrinkled
+// Surfaces", 1978.
 #include "templates/all_techniques.h"
 
 namespace intaglio::templates {
@@ -14,8 +15,8 @@ class None : public Search {
 }  // namespace
 
 dsl::Entry<dsl::Search> search_none() {
-    return dsl::entry<dsl::Search, None>("none", "Bump mapping without parallax: the coordinate stays where it is",
-                                         "Blinn 1978");
+    return dsl::entry<dsl::Search, None>(
+        "none", "Bump mapping without parallax: the coordinate stays where it is", "Blinn 1978");
 }
 
 }  // namespace intaglio::templates

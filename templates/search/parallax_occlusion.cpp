@@ -1,12 +1,12 @@
-// Parallax occlusion mapping: read the height profile along the view ray in equal steps, stop at the first sample that
-// rises above the ray, and intersect the ray with the profile's last segment.
-// Brawley and Tatarchuk, "Parallax Occlusion Mapping: Self-Shadowing, Perspective-Correct Bump Mapping Using Reverse
-// Height Map Tracing", ShaderX3, 2004.
+// Parallax occlusion mapping: read the height profile along the view ray in equal steps, stop at
+// the first sample that rises above the ray, and intersect the ray with the profile's last segment.
+// Brawley and Tatarchuk, "Parallax Occlusion Mapping: Self-Shadowing, Perspective-Correct Bump
+// Mapping Using Reverse Height Map Tracing", ShaderX3, 2004.
 //
-// The chapter's listing numbers its samples from the bottom (h0 at the ray's end) and takes its parallax vector in the
-// vertex shader; ours counts from the top and computes the vector per pixel.  Like the listing we spend no read on the
-// entry point: the profile before the first tap is level with it.  The last tap lies on the floor of the relief, so one
-// tap always rises above the ray.
+// The chapter's listing numbers its samples from the bottom (h0 at the ray's end) and takes its
+// parallax vector in the vertex shader; ours counts from the top and computes the vector per pixel.
+// Like the listing we spend no read on the entry point: the profile before the first tap is level
+// with it.  The last tap lies on the floor of the relief, so one tap always rises above the ray.
 #include "templates/all_techniques.h"
 
 namespace intaglio::templates {
@@ -26,7 +26,8 @@ class ParallaxOcclusion : public Search {
 
         var<float1> t{"t", step}, below{"below", gap(step)}, above{"above", below - step};
         {
-            Step marching("march", "Walk down the ray until a sample of the height profile rises above it.");
+            Step marching("march",
+                          "Walk down the ray until a sample of the height profile rises above it.");
             for (int1 i : march) {
                 march.until(below >= 0.0f);
                 above = below;
@@ -49,7 +50,8 @@ class ParallaxOcclusion : public Search {
 
 dsl::Entry<dsl::Search> search_parallax_occlusion() {
     return dsl::entry<dsl::Search, ParallaxOcclusion>(
-        "parallax_occlusion", "Equal steps along the view ray, then one intersection with the last segment",
+        "parallax_occlusion",
+        "Equal steps along the view ray, then one intersection with the last segment",
         "Brawley and Tatarchuk 2004");
 }
 

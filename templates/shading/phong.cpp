@@ -1,5 +1,6 @@
-// Phong illumination with the halfway vector: ambient + diffuse + specular, the last two dimmed by the shadow.
-// As both papers use it; the powers of the steep parallax page (square of N.H) is shininess = 2.
+// Phong illumination with the halfway vector: ambient + diffuse + specular, the last two dimmed by
+// the shadow. As both papers use it; the powers of the steep parallax page (square of N.H) is
+// shininess = 2.
 #include "templates/all_techniques.h"
 
 namespace intaglio::templates {
@@ -9,7 +10,8 @@ using namespace dsl;
 
 class Phong : public Shading {
   public:
-    Knob<float> shininess{this, "shininess", 32.0f, at_least{1}, at_most{256}, "exponent of the highlight"};
+    Knob<float> shininess{this,        "shininess",  32.0f,
+                          at_least{1}, at_most{256}, "exponent of the highlight"};
 
     float3 shade(const Fragment& fragment) const override {
         const float3 ambient = uniform<3>("ambient", "ambient light, linear rgb");
@@ -17,9 +19,12 @@ class Phong : public Shading {
         const float1 gloss = uniform<1>("gloss", "strength of the highlight");
 
         const float1 diffuse = let("diffuse", saturate(dot(fragment.normal, fragment.light)));
-        const float3 halfway = let("halfway", normalize(let("between", fragment.light + fragment.view)));
-        // pow(0, y) is 0 or NaN by device: the least base is a power that rounds to nothing on screen.
-        const float1 highlight = let("highlight", pow(max(dot(fragment.normal, halfway), 1e-4f), shininess.value()));
+        const float3 halfway =
+            let("halfway", normalize(let("between", fragment.light + fragment.view)));
+        // pow(0, y) is 0 or NaN by device: the least base is a power that rounds to nothing on
+        // screen.
+        const float1 highlight =
+            let("highlight", pow(max(dot(fragment.normal, halfway), 1e-4f), shininess.value()));
         // No highlight on the side that faces away.
         const float1 specular = let("specular", select(diffuse > 0.0f, gloss * highlight, 0.0f));
         return fragment.albedo * (ambient + light_colour * (diffuse * fragment.visibility)) +
@@ -30,7 +35,8 @@ class Phong : public Shading {
 }  // namespace
 
 dsl::Entry<dsl::Shading> shading_phong() {
-    return dsl::entry<dsl::Shading, Phong>("phong", "Ambient, diffuse and a highlight by the halfway vector", "");
+    return dsl::entry<dsl::Shading, Phong>(
+        "phong", "Ambient, diffuse and a highlight by the halfway vector", "");
 }
 
 }  // namespace intaglio::templates

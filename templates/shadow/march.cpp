@@ -1,9 +1,11 @@
-// The self-shadow loop: march from the point we see towards the light; in shadow if the relief rises to the ray before
-// the ray leaves through the top.  McGuire and McGuire, "Steep Parallax Mapping", page of 2005, shadow section.
+// The self-shadow loop: march from the point we see towards the light; in shadow if the relief
+// rises to the ray before the ray leaves through the top.  McGuire and McGuire, "Steep Parallax
+// Mapping", page of 2005, shadow section.
 //
-// The page's listing starts 0.1 step above the point (against shadow acne), and counts 60 steps at the horizon, 5 at
-// the zenith.  Its loop lost its braces and its selfShadow keeps the relief's height below the ray's as "lit"; we read it so.
-// With the light at or below the horizon nothing is lit.
+// The page's listing starts 0.1 step above the point (against shadow acne), and counts 60 steps at
+// the horizon, 5 at the zenith.  Its loop lost its braces and its selfShadow keeps the relief's
+// height below the ray's as "lit"; we read it so. With the light at or below the horizon nothing is
+// lit.
 #include "templates/all_techniques.h"
 
 namespace intaglio::templates {
@@ -13,15 +15,21 @@ using namespace dsl;
 
 class March : public Shadow {
   public:
-    Knob<int> min_steps{this, "shadow_min_steps", 5, at_least{1}, at_most{512}, "shadow steps with the light at the zenith"};
-    Knob<int> max_steps{this, "shadow_max_steps", 60, at_least{1}, at_most{512}, "shadow steps with the light at the horizon"};
-    Knob<float> start{this, "shadow_start", 0.1f, at_least{0}, at_most{1}, "start above the surface, in steps"};
+    Knob<int> min_steps{
+        this,        "shadow_min_steps", 5,
+        at_least{1}, at_most{512},       "shadow steps with the light at the zenith"};
+    Knob<int> max_steps{this,         "shadow_max_steps",
+                        60,           at_least{1},
+                        at_most{512}, "shadow steps with the light at the horizon"};
+    Knob<float> start{this,        "shadow_start", 0.1f,
+                      at_least{0}, at_most{1},     "start above the surface, in steps"};
     Loop march{"shadow_march", max_steps};
 
     float1 visibility(const Relief& relief, const Hit& hit, float3 light) const override {
         const float1 steps = step_count(light);
         const float1 step = let("shadow_step", 1.0f / steps);
-        const float2 reach = let("shadow_reach", light.xy() / max(light.z(), float1(Ray::least_z)) * relief.scale);
+        const float2 reach =
+            let("shadow_reach", light.xy() / max(light.z(), float1(Ray::least_z)) * relief.scale);
 
         var<float1> rise{"rise", start.value() * step}, height{"shadow_height", hit.height};
         for (int1 i : march) {
@@ -36,7 +44,9 @@ class March : public Shadow {
 
     Status check() const override {
         if (min_steps > max_steps)
-            return input_error("knob-relation", "shadow_min_steps is above shadow_max_steps; steps run from the first (zenith) to the second (horizon)");
+            return input_error("knob-relation",
+                               "shadow_min_steps is above shadow_max_steps; steps run from the "
+                               "first (zenith) to the second (horizon)");
         return Done{};
     }
 
@@ -48,8 +58,8 @@ class March : public Shadow {
   private:
     float1 step_count(float3 light) const {
         if (min_steps == max_steps) return static_cast<float>(max_steps.value());
-        const float1 wanted = lerp(float1(static_cast<float>(max_steps.value())), static_cast<float>(min_steps.value()),
-                                   saturate(light.z()));
+        const float1 wanted = lerp(float1(static_cast<float>(max_steps.value())),
+                                   static_cast<float>(min_steps.value()), saturate(light.z()));
         return let("shadow_steps", floor(wanted + 0.5f));
     }
 };
@@ -57,8 +67,9 @@ class March : public Shadow {
 }  // namespace
 
 dsl::Entry<dsl::Shadow> shadow_march() {
-    return dsl::entry<dsl::Shadow, March>("march", "A march towards the light that stops at the top of the relief",
-                                          "McGuire and McGuire 2005");
+    return dsl::entry<dsl::Shadow, March>(
+        "march", "A march towards the light that stops at the top of the relief",
+        "McGuire and McGuire 2005");
 }
 
 }  // namespace intaglio::templates

@@ -1,4 +1,5 @@
-// The program as people use it: products on stdout or whole in files, sentences on stderr, documented exit codes.
+// The program as people use it: products on stdout or whole in files, sentences on stderr,
+// documented exit codes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -35,14 +36,17 @@ class CommandLine : public testing::Test {
   protected:
     void SetUp() override {
         // A space, an umlaut and signs that shells and makefiles trip over.
-        folder_ = fs::temp_directory_path() / ("intaglio t\xc3\xa4st @$# " + std::to_string(getpid()));
+        folder_ =
+            fs::temp_directory_path() / ("intaglio t\xc3\xa4st @$# " + std::to_string(getpid()));
         fs::remove_all(folder_);
         fs::create_directories(folder_);
     }
     void TearDown() override { fs::remove_all(folder_); }
 
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
-    void write(const std::string& name, const std::string& bytes) const { std::ofstream(folder_ / name, std::ios::binary) << bytes; }
+    void write(const std::string& name, const std::string& bytes) const {
+        std::ofstream(folder_ / name, std::ios::binary) << bytes;
+    }
     void write_map(const std::string& name, const std::string& maker, int width, int height) const {
         const auto image = intaglio::maps::make_height_map(maker, width, height, 1);
         ASSERT_TRUE(image.ok());
@@ -54,10 +58,12 @@ class CommandLine : public testing::Test {
         for (const std::string& argument : arguments) command += " '" + argument + "'";
         command += " >'" + path("out") + "' 2>'" + path("err") + "' </dev/null";
         const int status = std::system(command.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(path("out")), contents(path("err"))};
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(path("out")),
+                contents(path("err"))};
     }
     // Bad input: exit code 2, one sentence with this code, nothing on stdout.
-    Outcome expect_refused(const std::vector<std::string>& arguments, const std::string& code) const {
+    Outcome expect_refused(const std::vector<std::string>& arguments,
+                           const std::string& code) const {
         const Outcome outcome = run(arguments);
         EXPECT_EQ(outcome.code, 2) << outcome.err;
         EXPECT_THAT(outcome.err, HasSubstr("[" + code + "]"));
@@ -66,7 +72,9 @@ class CommandLine : public testing::Test {
         return outcome;
     }
     std::vector<std::string> picture_of(const std::string& map) const {
-        return {"run", "parallax_occlusion", "-T", "glsl_450", "--height", path(map), "--size", "32x32", "-o", path("picture.png")};
+        return {
+            "run", "parallax_occlusion", "-T", "glsl_450", "--height", path(map), "--size", "32x32",
+            "-o",  path("picture.png")};
     }
 
     fs::path folder_;
@@ -77,67 +85,109 @@ TEST_F(CommandLine, ListsWhatThereIs) {
     EXPECT_THAT(run({"list", "targets"}).out, HasSubstr("hlsl_3_0"));
     EXPECT_THAT(run({"list", "knobs"}).out, HasSubstr("shadow_max_steps"));
     EXPECT_THAT(run({"list", "maps"}).out, HasSubstr("bricks"));
-    for (const char* what : {"techniques", "targets", "knobs", "maps"}) EXPECT_THAT(run({"list", what, "--json"}).out, HasSubstr("\"name\""));
-    EXPECT_THAT(expect_refused({"list", "tagrets"}, "unknown-list").err, HasSubstr("did you mean 'targets'"));
+    for (const char* what : {"techniques", "targets", "knobs", "maps"})
+        EXPECT_THAT(run({"list", what, "--json"}).out, HasSubstr("\"name\""));
+    EXPECT_THAT(expect_refused({"list", "tagrets"}, "unknown-list").err,
+                HasSubstr("did you mean 'targets'"));
 }
 
 TEST_F(CommandLine, EmitsToStdoutOrToAFile) {
     const Outcome on_stdout = run({"emit", "parallax_occlusion", "-T", "glsl_450"});
     EXPECT_EQ(on_stdout.code, 0);
     EXPECT_EQ(on_stdout.err, "");
-    EXPECT_THAT(on_stdout.out, HasSubstr("// Intersect the ray with the last segment of the profile."));
-    EXPECT_EQ(run({"emit", "parallax_occlusion", "-T", "glsl_450", "-o", path("shader.frag")}).out, "");
+    EXPECT_THAT(on_stdout.out,
+                HasSubstr("// Intersect the ray with the last segment of the profile."));
+    EXPECT_EQ(run({"emit", "parallax_occlusion", "-T", "glsl_450", "-o", path("shader.frag")}).out,
+              "");
     EXPECT_EQ(contents(path("shader.frag")), on_stdout.out);
-    EXPECT_THAT(run({"emit", "parallax_occlusion", "-T", "hlsl_5_0", "--stage", "vertex"}).out, HasSubstr("vertex_main"));
-    EXPECT_THAT(run({"emit", "parallax_occlusion", "-T", "glsl_450", "-D", "taps=12"}).out, HasSubstr("taps = 12"));
+    EXPECT_THAT(run({"emit", "parallax_occlusion", "-T", "hlsl_5_0", "--stage", "vertex"}).out,
+                HasSubstr("vertex_main"));
+    EXPECT_THAT(run({"emit", "parallax_occlusion", "-T", "glsl_450", "-D", "taps=12"}).out,
+                HasSubstr("taps = 12"));
 }
 
 TEST_F(CommandLine, EmitsBinariesWholeAndMetalText) {
     EXPECT_EQ(run({"emit", "fur", "-T", "spirv", "-o", path("fur.spv")}).code, 0);
-    EXPECT_EQ(contents(path("fur.spv")).substr(0, 4), "\x03\x02\x23\x07") << "SPIR-V's magic number";
+    EXPECT_EQ(contents(path("fur.spv")).substr(0, 4), "\x03\x02\x23\x07")
+        << "SPIR-V's magic number";
     EXPECT_THAT(run({"emit", "fur", "-T", "msl"}).out, HasSubstr("metal_stdlib"));
 }
 
 TEST_F(CommandLine, EmitsFunctions) {
-    EXPECT_THAT(run({"emit", "steep_parallax", "-T", "glsl_330", "--as", "function"}).out, HasSubstr("vec3 find(vec2 uv, vec3 view, sampler2D height_map"));
-    EXPECT_THAT(run({"emit", "steep_parallax,shadow=march", "-T", "glsl_330", "--as", "function", "--part", "shadow", "--bind", "globals"}).out,
+    EXPECT_THAT(run({"emit", "steep_parallax", "-T", "glsl_330", "--as", "function"}).out,
+                HasSubstr("vec3 find(vec2 uv, vec3 view, sampler2D height_map"));
+    EXPECT_THAT(run({"emit", "steep_parallax,shadow=march", "-T", "glsl_330", "--as", "function",
+                     "--part", "shadow", "--bind", "globals"})
+                    .out,
                 HasSubstr("float visibility(vec2 uv, float height, vec3 light) {"));
-    expect_refused({"emit", "steep_parallax", "-T", "spirv", "--as", "function"}, "target-function");
+    expect_refused({"emit", "steep_parallax", "-T", "spirv", "--as", "function"},
+                   "target-function");
 }
 
 TEST_F(CommandLine, DumpsEveryStepOfTheIr) {
-    const Outcome outcome = run({"emit", "parallax_occlusion", "-T", "glsl_450", "--loop", "march=unroll", "--dump-ir=all"});
+    const Outcome outcome = run({"emit", "parallax_occlusion", "-T", "glsl_450", "--loop",
+                                 "march=unroll", "--dump-ir=all"});
     EXPECT_EQ(outcome.code, 0);
-    for (const char* pass : {"fold_constants", "eliminate_common_subexpressions", "unroll_loops", "remove_dead_code"})
+    for (const char* pass :
+         {"fold_constants", "eliminate_common_subexpressions", "unroll_loops", "remove_dead_code"})
         EXPECT_THAT(outcome.err, HasSubstr(pass));
     EXPECT_THAT(outcome.err, HasSubstr("sample_level height_map"));
     EXPECT_THAT(outcome.out, HasSubstr("#version 450"));
 }
 
 TEST_F(CommandLine, UnknownNamesGetTheNearest) {
-    EXPECT_THAT(expect_refused({"emit", "paralax_occlusion", "-T", "glsl_450"}, "unknown-surface").err, HasSubstr("did you mean 'parallax_occlusion'"));
-    EXPECT_THAT(expect_refused({"emit", "parallax_occlusion", "-T", "glsl_45"}, "unknown-target").err, HasSubstr("did you mean 'glsl_450'"));
-    EXPECT_THAT(expect_refused({"emit", "search=none,shadow=marsh", "-T", "glsl_450"}, "unknown-technique").err, HasSubstr("did you mean 'march'"));
-    EXPECT_THAT(expect_refused({"emit", "search=none,shadwo=march", "-T", "glsl_450"}, "unknown-part").err, HasSubstr("did you mean 'shadow'"));
-    EXPECT_THAT(expect_refused({"emit", "parallax_occlusion", "-T", "glsl_450", "-D", "tap=8"}, "unknown-knob").err, HasSubstr("did you mean 'taps'"));
-    EXPECT_THAT(expect_refused({"emit", "parallax_occlusion", "-T", "glsl_450", "--loop", "mrach=unroll"}, "unknown-loop").err, HasSubstr("did you mean 'march'"));
-    EXPECT_THAT(expect_refused({"run", "fur", "-T", "glsl_450", "--maker", "brick", "-o", path("p.png")}, "unknown-map").err, HasSubstr("bricks"));
-    expect_refused({"run", "fur", "-T", "glsl_450", "--maker", "bricks", "--device", "no such card", "-o", path("p.png")}, "unknown-device");
+    EXPECT_THAT(
+        expect_refused({"emit", "paralax_occlusion", "-T", "glsl_450"}, "unknown-surface").err,
+        HasSubstr("did you mean 'parallax_occlusion'"));
+    EXPECT_THAT(
+        expect_refused({"emit", "parallax_occlusion", "-T", "glsl_45"}, "unknown-target").err,
+        HasSubstr("did you mean 'glsl_450'"));
+    EXPECT_THAT(
+        expect_refused({"emit", "search=none,shadow=marsh", "-T", "glsl_450"}, "unknown-technique")
+            .err,
+        HasSubstr("did you mean 'march'"));
+    EXPECT_THAT(
+        expect_refused({"emit", "search=none,shadwo=march", "-T", "glsl_450"}, "unknown-part").err,
+        HasSubstr("did you mean 'shadow'"));
+    EXPECT_THAT(expect_refused({"emit", "parallax_occlusion", "-T", "glsl_450", "-D", "tap=8"},
+                               "unknown-knob")
+                    .err,
+                HasSubstr("did you mean 'taps'"));
+    EXPECT_THAT(
+        expect_refused({"emit", "parallax_occlusion", "-T", "glsl_450", "--loop", "mrach=unroll"},
+                       "unknown-loop")
+            .err,
+        HasSubstr("did you mean 'march'"));
+    EXPECT_THAT(
+        expect_refused({"run", "fur", "-T", "glsl_450", "--maker", "brick", "-o", path("p.png")},
+                       "unknown-map")
+            .err,
+        HasSubstr("bricks"));
+    expect_refused({"run", "fur", "-T", "glsl_450", "--maker", "bricks", "--device", "no such card",
+                    "-o", path("p.png")},
+                   "unknown-device");
 }
 
 TEST_F(CommandLine, KnobsKeepTheirRange) {
     for (const char* value : {"taps=0", "taps=257", "taps=-1"}) {
-        const Outcome outcome = expect_refused({"emit", "parallax_occlusion", "-T", "glsl_450", "-D", value}, "knob-range");
+        const Outcome outcome = expect_refused(
+            {"emit", "parallax_occlusion", "-T", "glsl_450", "-D", value}, "knob-range");
         EXPECT_THAT(outcome.err, HasSubstr("1 to 256"));
     }
     for (const char* value : {"taps=1.5", "taps=many", "taps=", "taps=nan", "taps=1e999"})
         expect_refused({"emit", "parallax_occlusion", "-T", "glsl_450", "-D", value}, "knob-value");
-    expect_refused({"emit", "steep_parallax", "-T", "glsl_450", "-D", "min_steps=70"}, "knob-relation");
+    expect_refused({"emit", "steep_parallax", "-T", "glsl_450", "-D", "min_steps=70"},
+                   "knob-relation");
     expect_refused({"emit", "parallax_occlusion", "-T", "glsl_450", "-D", "taps"}, "knob-syntax");
 }
 
 TEST_F(CommandLine, UsageErrorsSayTheirReasonInOneLine) {
-    for (const std::vector<std::string>& arguments : {std::vector<std::string>{}, {"emit"}, {"emit", "fur"}, {"frobnicate"}, {"emit", "fur", "-T", "glsl_450", "--what"}}) {
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{},
+          {"emit"},
+          {"emit", "fur"},
+          {"frobnicate"},
+          {"emit", "fur", "-T", "glsl_450", "--what"}}) {
         const Outcome outcome = expect_refused(arguments, "usage");
         EXPECT_THAT(outcome.err, HasSubstr("--help"));
     }
@@ -146,8 +196,10 @@ TEST_F(CommandLine, UsageErrorsSayTheirReasonInOneLine) {
 }
 
 TEST_F(CommandLine, DrawsARealMap) {
-    const Outcome outcome = run({"run", "steep_parallax,shadow=march", "-T", "hlsl_5_0", "--height", INTAGLIO_ROOT "/examples/maps/stone_bricks/normal_height.png",
-                                 "--colour", INTAGLIO_ROOT "/examples/maps/stone_bricks/colour.png", "--size", "64x64", "--validation", "-o", path("picture.png")});
+    const Outcome outcome = run({"run", "steep_parallax,shadow=march", "-T", "hlsl_5_0", "--height",
+                                 INTAGLIO_ROOT "/examples/maps/stone_bricks/normal_height.png",
+                                 "--colour", INTAGLIO_ROOT "/examples/maps/stone_bricks/colour.png",
+                                 "--size", "64x64", "--validation", "-o", path("picture.png")});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     const auto picture = intaglio::maps::read_png(path("picture.png"));
     ASSERT_TRUE(picture.ok());
@@ -156,12 +208,20 @@ TEST_F(CommandLine, DrawsARealMap) {
 
 TEST_F(CommandLine, DrawsOnEveryMesh) {
     for (const char* mesh : {"map", "quad", "sphere", "torus"}) {
-        const Outcome outcome = run({"run", "parallax_occlusion", "-T", "glsl_450", "--maker", "cobbles", "--mesh", mesh, "--size", "48x32", "--validation", "-o", path("picture.png")});
+        const Outcome outcome =
+            run({"run", "parallax_occlusion", "-T", "glsl_450", "--maker", "cobbles", "--mesh",
+                 mesh, "--size", "48x32", "--validation", "-o", path("picture.png")});
         EXPECT_EQ(outcome.code, 0) << mesh << outcome.err;
     }
-    EXPECT_EQ(run({"run", "parallax_occlusion", "-T", "glsl_450", "--maker", "cobbles", "--mesh", "map", "--size", "64x64", "--error-map", path("errors.png"), "-o", path("p.png")}).code, 0);
+    EXPECT_EQ(
+        run({"run", "parallax_occlusion", "-T", "glsl_450", "--maker", "cobbles", "--mesh", "map",
+             "--size", "64x64", "--error-map", path("errors.png"), "-o", path("p.png")})
+            .code,
+        0);
     EXPECT_TRUE(fs::exists(path("errors.png")));
-    expect_refused({"run", "fur", "-T", "glsl_450", "--maker", "fur", "--mesh", "teapot", "-o", path("p.png")}, "option-value");
+    expect_refused(
+        {"run", "fur", "-T", "glsl_450", "--maker", "fur", "--mesh", "teapot", "-o", path("p.png")},
+        "option-value");
 }
 
 TEST_F(CommandLine, MapsOfAnySizeAreDrawn) {
@@ -176,8 +236,10 @@ TEST_F(CommandLine, BrokenMapsGetASentence) {
     write_map("whole.png", "bricks", 64, 64);
     const std::string whole = contents(path("whole.png"));
     write("truncated.png", whole.substr(0, whole.size() / 2));
-    const std::pair<const char*, const char*> cases[] = {
-        {"missing.png", "file-missing"}, {"text.png", "not-a-png"}, {"empty.png", "file-empty"}, {"truncated.png", "png-truncated"}};
+    const std::pair<const char*, const char*> cases[] = {{"missing.png", "file-missing"},
+                                                         {"text.png", "not-a-png"},
+                                                         {"empty.png", "file-empty"},
+                                                         {"truncated.png", "png-truncated"}};
     for (const auto& [map, code] : cases) {
         const Outcome outcome = expect_refused(picture_of(map), code);
         EXPECT_THAT(outcome.err, HasSubstr(map)) << "the sentence names the file";
@@ -189,11 +251,15 @@ TEST_F(CommandLine, BrokenMapsGetASentence) {
 }
 
 TEST_F(CommandLine, OutputsAreWholeOrAbsent) {
-    expect_refused({"emit", "fur", "-T", "glsl_450", "-o", path("no/such/folder/shader.frag")}, "file-unwritable");
+    expect_refused({"emit", "fur", "-T", "glsl_450", "-o", path("no/such/folder/shader.frag")},
+                   "file-unwritable");
     write("kept.frag", "what was there before");
-    expect_refused({"emit", "fur", "-T", "glsl_450", "-D", "max_steps=0", "-o", path("kept.frag")}, "knob-range");
+    expect_refused({"emit", "fur", "-T", "glsl_450", "-D", "max_steps=0", "-o", path("kept.frag")},
+                   "knob-range");
     EXPECT_EQ(contents(path("kept.frag")), "what was there before");
-    expect_refused({"run", "fur", "-T", "glsl_450", "--maker", "fur", "--size", "16x16", "-o", path("no/such/p.png")}, "file-unwritable");
+    expect_refused({"run", "fur", "-T", "glsl_450", "--maker", "fur", "--size", "16x16", "-o",
+                    path("no/such/p.png")},
+                   "file-unwritable");
     EXPECT_EQ(run({"emit", "fur", "-T", "glsl_450", "-o", "/dev/full"}).code, 2);
 }
 
@@ -208,18 +274,22 @@ TEST_F(CommandLine, UnchangedOutputsKeepTheirTime) {
 
 TEST_F(CommandLine, BakesNormals) {
     write_map("height.png", "cobbles", 32, 16);
-    EXPECT_EQ(run({"bake", "normal", path("height.png"), "-o", path("normal.png"), "--keep-height"}).code, 0);
+    EXPECT_EQ(
+        run({"bake", "normal", path("height.png"), "-o", path("normal.png"), "--keep-height"}).code,
+        0);
     const auto normals = intaglio::maps::read_png(path("normal.png"));
     ASSERT_TRUE(normals.ok());
     EXPECT_EQ(normals->channels, 4);
-    expect_refused({"bake", "normal", path("height.png"), "-o", path("n.png"), "--kernel", "box"}, "option-value");
+    expect_refused({"bake", "normal", path("height.png"), "-o", path("n.png"), "--kernel", "box"},
+                   "option-value");
     expect_refused({"bake", "normal", path("missing.png"), "-o", path("n.png")}, "file-missing");
 }
 
 TEST_F(CommandLine, ValidatesEveryTarget) {
     const Outcome outcome = run({"validate", "parallax_occlusion"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    for (const char* target : {"glsl_450", "glsl_330", "glsl_120", "essl_300", "essl_100", "hlsl_5_0", "hlsl_3_0", "hlsl_2_b", "hlsl_2_0", "spirv", "msl"})
+    for (const char* target : {"glsl_450", "glsl_330", "glsl_120", "essl_300", "essl_100",
+                               "hlsl_5_0", "hlsl_3_0", "hlsl_2_b", "hlsl_2_0", "spirv", "msl"})
         EXPECT_THAT(outcome.out, HasSubstr(target));
     EXPECT_THAT(outcome.out, HasSubstr("no SPIR-V of this language to count"));
     // What a target cannot carry fails the command only where the target was asked for.
@@ -233,15 +303,21 @@ TEST_F(CommandLine, ValidatesEveryTarget) {
 
 TEST_F(CommandLine, MeasuresAScene) {
     write_map("my map.png", "bricks", 64, 32);
-    write("scene.toml", "[relief]\nscale = 0.1\n[views]\nelevations = [90, 30]\nazimuths = [20]\n[lights]\nelevations = [40]\nazimuths = [120]\n"
-                        "[run]\nsize = 32\nrounds = 2\n[[map]]\nname = \"mine\"\nheight_map = \"my map.png\"\n"
-                        "[[variant]]\nsurface = \"steep_parallax,shadow=march\"\ntargets = [\"glsl_450\", \"hlsl_5_0\"]\n"
-                        "[[variant]]\nsurface = \"parallax_occlusion\"\ntargets = [\"glsl_450\"]\nknobs = { taps = [8, 32] }\n");
-    const Outcome outcome = run({"measure", path("scene.toml"), "-o", path("results"), "--validation"});
+    write("scene.toml",
+          "[relief]\nscale = 0.1\n[views]\nelevations = [90, 30]\nazimuths = "
+          "[20]\n[lights]\nelevations = [40]\nazimuths = [120]\n"
+          "[run]\nsize = 32\nrounds = 2\n[[map]]\nname = \"mine\"\nheight_map = \"my map.png\"\n"
+          "[[variant]]\nsurface = \"steep_parallax,shadow=march\"\ntargets = [\"glsl_450\", "
+          "\"hlsl_5_0\"]\n"
+          "[[variant]]\nsurface = \"parallax_occlusion\"\ntargets = [\"glsl_450\"]\nknobs = { taps "
+          "= [8, 32] }\n");
+    const Outcome outcome =
+        run({"measure", path("scene.toml"), "-o", path("results"), "--validation"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr("steep_parallax"));
     EXPECT_THAT(outcome.out, HasSubstr("miss%"));
-    for (const char* file : {"results/results.json", "results/results.csv"}) EXPECT_GT(contents(path(file)).size(), 500u) << file;
+    for (const char* file : {"results/results.json", "results/results.csv"})
+        EXPECT_GT(contents(path(file)).size(), 500u) << file;
     write("bad.toml", "[relief]\nsacle = 0.1\n");
     const Outcome bad = run({"measure", path("bad.toml"), "-o", path("results")});
     EXPECT_EQ(bad.code, 2);

@@ -1,4 +1,5 @@
-// How right the searches are, against the exact reference: the relations that the papers claim, with margin.
+// How right the searches are, against the exact reference: the relations that the papers claim,
+// with margin.
 #include "tests/exec/bench.h"
 
 #include "src/measure/hits.h"
@@ -6,10 +7,13 @@
 namespace intaglio::exec {
 namespace {
 
-measure::HitStatistics measure_hits(const std::string& surface, const Knobs& knobs, const measure::MapSet& set, measure::Direction view,
+measure::HitStatistics measure_hits(const std::string& surface, const Knobs& knobs,
+                                    const measure::MapSet& set, measure::Direction view,
                                     measure::Direction light = {45, 130}) {
     constexpr int size = 128;
-    const vulkan::Picture displaced = draw(request(dsl::with_part(surface, "output", "displaced"), "glsl_450", knobs), set, view, light, size)[0];
+    const vulkan::Picture displaced =
+        draw(request(dsl::with_part(surface, "output", "displaced"), "glsl_450", knobs), set, view,
+             light, size)[0];
     const reference::HeightField field = set.height_field(reference::FilterWeights::Exact);
     const float scale = static_cast<float>(test_scale);
     const measure::ExactPicture exact = measure::trace_exact(field, view, light, scale, size, size);
@@ -26,7 +30,8 @@ TEST(Accuracy, StraightDownEverySearchIsExact) {
 }
 
 TEST(Accuracy, ParallaxOcclusionWith64TapsIsWithinHalfATexelOnTheSmoothMap) {
-    const measure::HitStatistics hits = measure_hits("parallax_occlusion", {{"taps", "64"}}, map_named("smooth"), {45, 20});
+    const measure::HitStatistics hits =
+        measure_hits("parallax_occlusion", {{"taps", "64"}}, map_named("smooth"), {45, 20});
     EXPECT_LT(hits.p95, 0.5);
     EXPECT_EQ(hits.invalid, 0);
 }
@@ -35,7 +40,8 @@ TEST(Accuracy, TheErrorFallsAsTapsGrow) {
     const measure::MapSet smooth = map_named("smooth");
     double before = 1e9;
     for (const char* taps : {"4", "8", "16", "32", "64"}) {
-        const measure::HitStatistics hits = measure_hits("parallax_occlusion", {{"taps", taps}}, smooth, {30, 20});
+        const measure::HitStatistics hits =
+            measure_hits("parallax_occlusion", {{"taps", taps}}, smooth, {30, 20});
         EXPECT_LT(hits.p95, before * 0.7) << taps << " taps";
         before = hits.p95;
     }
@@ -44,38 +50,54 @@ TEST(Accuracy, TheErrorFallsAsTapsGrow) {
 TEST(Accuracy, SteepParallaxStepsAreSmallerTheMoreOfThem) {
     const measure::MapSet bricks = map_named("bricks");
     const auto p95 = [&](const char* steps) {
-        return measure_hits("steep_parallax", {{"min_steps", steps}, {"max_steps", steps}}, bricks, {30, 20}).p95;
+        return measure_hits("steep_parallax", {{"min_steps", steps}, {"max_steps", steps}}, bricks,
+                            {30, 20})
+            .p95;
     };
     EXPECT_LT(p95("64"), p95("16") * 0.6);
     EXPECT_LT(p95("256"), p95("64") * 0.6);
 }
 
 TEST(Accuracy, OneLastIntersectionBeatsNone) {
-    // At equal reads: the secant of parallax occlusion against the bare first sample of steep parallax.
+    // At equal reads: the secant of parallax occlusion against the bare first sample of steep
+    // parallax.
     const measure::MapSet smooth = map_named("smooth");
-    const measure::HitStatistics occlusion = measure_hits("parallax_occlusion", {{"taps", "32"}}, smooth, {30, 20});
-    const measure::HitStatistics steep = measure_hits("steep_parallax", {{"min_steps", "32"}, {"max_steps", "32"}}, smooth, {30, 20});
+    const measure::HitStatistics occlusion =
+        measure_hits("parallax_occlusion", {{"taps", "32"}}, smooth, {30, 20});
+    const measure::HitStatistics steep = measure_hits(
+        "steep_parallax", {{"min_steps", "32"}, {"max_steps", "32"}}, smooth, {30, 20});
     EXPECT_LT(occlusion.p95, steep.p95 * 0.5);
 }
 
 TEST(Accuracy, OneTexelSpikesAreMissedAndSaidSo) {
     const measure::MapSet spikes = map_named("spikes");
-    const measure::HitStatistics few = measure_hits("parallax_occlusion", {{"taps", "8"}}, spikes, {20, 20});
-    const measure::HitStatistics many = measure_hits("parallax_occlusion", {{"taps", "256"}}, spikes, {20, 20});
+    const measure::HitStatistics few =
+        measure_hits("parallax_occlusion", {{"taps", "8"}}, spikes, {20, 20});
+    const measure::HitStatistics many =
+        measure_hits("parallax_occlusion", {{"taps", "256"}}, spikes, {20, 20});
     EXPECT_GT(few.missed, few.pixels / 100) << "8 taps at 20 degrees step over one-texel spikes";
     EXPECT_LT(many.missed, few.missed / 4) << "256 taps do not";
 }
 
 TEST(Accuracy, BumpMappingStaysWhereItIs) {
-    const measure::HitStatistics hits = measure_hits("search=none", {}, map_named("bricks"), {30, 20});
-    EXPECT_GT(hits.p95, 2) << "plain bump mapping has no parallax, and the measurement must show it";
+    const measure::HitStatistics hits =
+        measure_hits("search=none", {}, map_named("bricks"), {30, 20});
+    EXPECT_GT(hits.p95, 2)
+        << "plain bump mapping has no parallax, and the measurement must show it";
 }
 
 TEST(Accuracy, TheShadowMarchAgreesWithTheExactShadowMostly) {
     const measure::MapSet bricks = map_named("bricks");
-    const Knobs fine = {{"min_steps", "256"}, {"max_steps", "256"}, {"shadow_min_steps", "256"}, {"shadow_max_steps", "256"}, {"shadow_start", "1"}};
-    const measure::HitStatistics march = measure_hits("steep_parallax,shadow=march", fine, bricks, {60, 20}, {25, 130});
-    const measure::HitStatistics none = measure_hits("steep_parallax", {{"min_steps", "256"}, {"max_steps", "256"}}, bricks, {60, 20}, {25, 130});
+    const Knobs fine = {{"min_steps", "256"},
+                        {"max_steps", "256"},
+                        {"shadow_min_steps", "256"},
+                        {"shadow_max_steps", "256"},
+                        {"shadow_start", "1"}};
+    const measure::HitStatistics march =
+        measure_hits("steep_parallax,shadow=march", fine, bricks, {60, 20}, {25, 130});
+    const measure::HitStatistics none =
+        measure_hits("steep_parallax", {{"min_steps", "256"}, {"max_steps", "256"}}, bricks,
+                     {60, 20}, {25, 130});
     EXPECT_GT(none.shadow_wrong, none.pixels / 50) << "the scene has shadows";
     EXPECT_LT(march.shadow_wrong, none.shadow_wrong / 2) << "and the march finds most of them";
 }

@@ -1,4 +1,5 @@
-// What the exec tests share: one device with validation layers, maps by name, and drawing a surface on a target.
+// What the exec tests share: one device with validation layers, maps by name, and drawing a surface
+// on a target.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,10 +14,12 @@
 
 namespace intaglio::exec {
 
-// The one device of the test program, with validation layers; a failure to make it fails the test that asks first.
+// The one device of the test program, with validation layers; a failure to make it fails the test
+// that asks first.
 const vulkan::Device& device();
 
-// The value, or a test failure with the diagnostic and an exit: nothing after it would mean anything.
+// The value, or a test failure with the diagnostic and an exit: nothing after it would mean
+// anything.
 template <typename T>
 T must(Result<T> result) {
     if (!result) {
@@ -34,9 +37,11 @@ measure::MapSet map_named(const std::string& maker, int width = 128, int height 
 
 using Knobs = std::vector<std::pair<std::string, std::string>>;
 
-VariantRequest request(const std::string& surface, const std::string& target, const Knobs& knobs = {});
+VariantRequest request(const std::string& surface, const std::string& target,
+                       const Knobs& knobs = {});
 
-// A surface on a target, compiled and uploaded once: a quad over the whole map, `size` pixels a side.
+// A surface on a target, compiled and uploaded once: a quad over the whole map, `size` pixels a
+// side.
 class Drawing {
   public:
     Drawing(const VariantRequest& request, const measure::MapSet& set, int size = 64,
@@ -49,11 +54,12 @@ class Drawing {
 };
 
 // The same for one picture.
-std::vector<vulkan::Picture> draw(const VariantRequest& request, const measure::MapSet& set, measure::Direction view,
-                                  measure::Direction light, int size = 64,
+std::vector<vulkan::Picture> draw(const VariantRequest& request, const measure::MapSet& set,
+                                  measure::Direction view, measure::Direction light, int size = 64,
                                   measure::Filtering filtering = measure::Filtering::Float);
 
-// Passes if both pictures have the same bits in every pixel; the failure names the first that differs, and how far.
+// Passes if both pictures have the same bits in every pixel; the failure names the first that
+// differs, and how far.
 testing::AssertionResult same_bits(const vulkan::Picture& expected, const vulkan::Picture& actual);
 
 // Pixels with NaN or Inf.

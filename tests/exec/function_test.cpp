@@ -1,4 +1,5 @@
-// The drop-in promise: an emitted function, pasted into a shader that is not ours, draws what the whole surface draws.
+// The drop-in promise: an emitted function, pasted into a shader that is not ours, draws what the
+// whole surface draws.
 #include "tests/exec/bench.h"
 
 #include <fmt/format.h>
@@ -9,7 +10,8 @@ namespace {
 constexpr int size = 64;
 constexpr measure::Direction view{35, 50}, light{30, 160};
 
-// A shader somebody else wrote, with names of its own: {0} is what is pasted, {1} the expression that calls it.
+// A shader somebody else wrote, with names of its own: {0} is what is pasted, {1} the expression
+// that calls it.
 struct Host {
     const char* target;
     const char* text;
@@ -75,18 +77,21 @@ std::string arguments(const std::string& target) {
     return target == "hlsl_5_0" ? "bumps, bumps_sampler, texels, depth" : "bumps, texels, depth";
 }
 
-vulkan::Picture draw_host(const std::string& target, const std::string& host_text, const Variant& whole, const measure::MapSet& set) {
+vulkan::Picture draw_host(const std::string& target, const std::string& host_text,
+                          const Variant& whole, const measure::MapSet& set) {
     check::Source host = source_of(whole, ir::Stage::Pixel);
     host.text = host_text;
     host.name = "host." + target;
-    const check::Program shaders = must(check::link_to_spirv(source_of(whole, ir::Stage::Vertex), host));
+    const check::Program shaders =
+        must(check::link_to_spirv(source_of(whole, ir::Stage::Vertex), host));
     const vulkan::Mesh quad = vulkan::quad();
     const measure::Textures textures(set, measure::Filtering::Float);
     vulkan::Draw draw;
     draw.vertex.spirv = shaders.vertex;
     draw.fragment.spirv = shaders.pixel;
     draw.mesh = &quad;
-    draw.uniforms = measure::uniforms_of(view, light, test_scale, set.heights.width, set.heights.height);
+    draw.uniforms =
+        measure::uniforms_of(view, light, test_scale, set.heights.width, set.heights.height);
     draw.uniforms["depth"] = draw.uniforms["scale"];
     draw.uniforms["texels"] = draw.uniforms["map_size"];
     draw.textures = {{"bumps", &textures.height}, {"height_map", &textures.height}};
@@ -108,37 +113,58 @@ class PastedFunction : public testing::TestWithParam<Host> {};
 TEST_P(PastedFunction, DrawsWhatTheWholeSurfaceDraws) {
     const std::string target = GetParam().target;
     const measure::MapSet bricks = map_named("bricks", 128, 64);
-    const std::string vec3 = is_hlsl(target) ? "float3" : "vec3", vec4 = is_hlsl(target) ? "float4" : "vec4";
-    for (const Case& c : {Case{"parallax_occlusion,shadow=march,output=displaced", {{"taps", "12"}}},
-                          Case{"steep_parallax,shadow=march,output=displaced", {{"nyquist", "1"}}},
-                          Case{"fur,output=displaced", {}}}) {
+    const std::string vec3 = is_hlsl(target) ? "float3" : "vec3",
+                      vec4 = is_hlsl(target) ? "float4" : "vec4";
+    for (const Case& c :
+         {Case{"parallax_occlusion,shadow=march,output=displaced", {{"taps", "12"}}},
+          Case{"steep_parallax,shadow=march,output=displaced", {{"nyquist", "1"}}},
+          Case{"fur,output=displaced", {}}}) {
         const VariantRequest wanted = request(c.surface, target, c.knobs);
         const Variant whole = must(make_variant(templates::all_techniques(), wanted));
-        // Fur's shadow asks for no light, so the whole surface's vertex stage hands none on; the host wants one.
+        // Fur's shadow asks for no light, so the whole surface's vertex stage hands none on; the
+        // host wants one.
         VariantRequest with_light = request("steep_parallax,shadow=march,output=displaced", target);
         const Variant vertex = must(make_variant(templates::all_techniques(), with_light));
         const vulkan::Picture expected = draw(wanted, bricks, view, light, size)[0];
 
-        const std::string find = function_text(wanted, dsl::FunctionPart::Search, Binding::Parameters);
-        const std::string visibility = function_text(wanted, dsl::FunctionPart::Shadow, Binding::Parameters);
-        const std::string call = fmt::format("{} hit = find(s, E, {}); fragment = {}(hit, visibility(hit.xy, hit.z, L, {}));", vec3, arguments(target), vec4, arguments(target));
-        const std::string host = fmt::format(fmt::runtime(GetParam().text), find + visibility, call);
-        EXPECT_TRUE(same_bits(expected, draw_host(target, host, vertex, bricks))) << c.surface << " with parameters";
+        const std::string find =
+            function_text(wanted, dsl::FunctionPart::Search, Binding::Parameters);
+        const std::string visibility =
+            function_text(wanted, dsl::FunctionPart::Shadow, Binding::Parameters);
+        const std::string call = fmt::format(
+            "{} hit = find(s, E, {}); fragment = {}(hit, visibility(hit.xy, hit.z, L, {}));", vec3,
+            arguments(target), vec4, arguments(target));
+        const std::string host =
+            fmt::format(fmt::runtime(GetParam().text), find + visibility, call);
+        EXPECT_TRUE(same_bits(expected, draw_host(target, host, vertex, bricks)))
+            << c.surface << " with parameters";
 
-        const std::string find_globals = function_text(wanted, dsl::FunctionPart::Search, Binding::Globals);
-        const std::string mixed = fmt::format("{} hit = find(s, E); fragment = {}(hit, visibility(hit.xy, hit.z, L, {}));", vec3, vec4, arguments(target));
-        const std::string globals_host = fmt::format(fmt::runtime(GetParam().text), find_globals + visibility, mixed);
-        EXPECT_TRUE(same_bits(expected, draw_host(target, globals_host, vertex, bricks))) << c.surface << " with globals";
+        const std::string find_globals =
+            function_text(wanted, dsl::FunctionPart::Search, Binding::Globals);
+        const std::string mixed = fmt::format(
+            "{} hit = find(s, E); fragment = {}(hit, visibility(hit.xy, hit.z, L, {}));", vec3,
+            vec4, arguments(target));
+        const std::string globals_host =
+            fmt::format(fmt::runtime(GetParam().text), find_globals + visibility, mixed);
+        EXPECT_TRUE(same_bits(expected, draw_host(target, globals_host, vertex, bricks)))
+            << c.surface << " with globals";
 
-        const std::string visibility_globals = function_text(wanted, dsl::FunctionPart::Shadow, Binding::Globals);
-        const std::string other = fmt::format("{} hit = find(s, E, {}); fragment = {}(hit, visibility(hit.xy, hit.z, L));", vec3, arguments(target), vec4);
-        const std::string other_host = fmt::format(fmt::runtime(GetParam().text), find + visibility_globals, other);
-        EXPECT_TRUE(same_bits(expected, draw_host(target, other_host, vertex, bricks))) << c.surface << ", shadow with globals";
+        const std::string visibility_globals =
+            function_text(wanted, dsl::FunctionPart::Shadow, Binding::Globals);
+        const std::string other = fmt::format(
+            "{} hit = find(s, E, {}); fragment = {}(hit, visibility(hit.xy, hit.z, L));", vec3,
+            arguments(target), vec4);
+        const std::string other_host =
+            fmt::format(fmt::runtime(GetParam().text), find + visibility_globals, other);
+        EXPECT_TRUE(same_bits(expected, draw_host(target, other_host, vertex, bricks)))
+            << c.surface << ", shadow with globals";
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryTextTarget, PastedFunction, testing::ValuesIn(hosts),
-                         [](const testing::TestParamInfo<Host>& host) { return std::string(host.param.target); });
+                         [](const testing::TestParamInfo<Host>& host) {
+                             return std::string(host.param.target);
+                         });
 
 }  // namespace
 }  // namespace intaglio::exec

@@ -6,6 +6,7 @@ void body([[maybe_unused]] float1 x, [[maybe_unused]] float3 v, [[maybe_unused]]
 #ifdef RIGHT
     If(x != 0.0f, [] {});
 #else
-    if (x) {}
+    if (x) {
+    }
 #endif
 }

@@ -6,6 +6,7 @@ void body([[maybe_unused]] float1 x, [[maybe_unused]] float3 v, [[maybe_unused]]
 #ifdef RIGHT
     [[maybe_unused]] const bool1 go = x > 0.0f;
 #else
-    while (x > 0.0f) {}
+    while (x > 0.0f) {
+    }
 #endif
 }

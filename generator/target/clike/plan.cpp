@@ -1,5 +1,5 @@
-// The plan in three steps: forms (what is inlined), variables (what shares storage), and precise, which has a
-// file of its own.
+// The plan in three steps: forms (what is inlined), variables (what shares storage), and precise,
+// which has a file of its own.
 #include "generator/target/clike/plan.h"
 
 #include <algorithm>

@@ -17,8 +17,8 @@ struct Ending {
     std::string before;               // a first statement, "Targets result;"; may be empty
     std::vector<std::string> stores;  // for each output what stands left of "=": "color"; empty:
                                       // the one output is returned
-    std::string result_name;  // wanted for the returned value, should it need a name
-    std::string after;        // a last statement, "return result;"; may be empty
+    std::string result_name;          // wanted for the returned value, should it need a name
+    std::string after;                // a last statement, "return result;"; may be empty
 };
 
 // `scope` holds the names that the shell has declared; `out` is inside the braces of the body.

@@ -31,9 +31,10 @@ struct Limits {
 
     bool arbitrary_swizzle;  // else identity, one component, yzxw, zxyw, wzyx
     bool initialised_lanes;  // reading what no path has written is refused
-    // What Direct3D lets pass, though nothing good comes of it: a shader that writes no output, the w of a nrm.
+    // What Direct3D lets pass, though nothing good comes of it: a shader that writes no output, the
+    // w of a nrm.
     bool strict;
-    bool all_capabilities;   // ps_2_x with every optional capability: static and dynamic flow
+    bool all_capabilities;  // ps_2_x with every optional capability: static and dynamic flow
 
     bool model_3() const { return profile == Profile::ps_3_0 || profile == Profile::vs_3_0; }
     bool pixel() const { return is_pixel(profile); }

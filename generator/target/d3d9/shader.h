@@ -140,9 +140,9 @@ struct Destination {
     File file = File::Temp;
     int index = 0;
     Mask mask = full_mask;
-    bool saturate = false;             // _sat
-    bool partial_precision = false;    // _pp
-    bool centroid = false;             // _centroid, on declarations
+    bool saturate = false;                  // _sat
+    bool partial_precision = false;         // _pp
+    bool centroid = false;                  // _centroid, on declarations
     std::optional<Relative> relative = {};  // o[aL + n], vs_3_0 only
     friend bool operator==(const Destination&, const Destination&) = default;
 };
@@ -163,7 +163,7 @@ struct Instruction {
     std::optional<Destination> destination = {};
     std::vector<Source> sources;
     std::optional<Source> predicate = {};  // (p0.x) or (!p0)
-    ir::Origin origin;                // where it comes from; not in the bytecode, not compared
+    ir::Origin origin;                     // where it comes from; not in the bytecode, not compared
     friend bool operator==(const Instruction& a, const Instruction& b) {
         return a.op == b.op && a.comparison == b.comparison && a.destination == b.destination &&
                a.sources == b.sources && a.predicate == b.predicate;

@@ -11,9 +11,11 @@ namespace {
 TEST(Diagnostic, SaysFileLineColumnSentenceAndCode) {
     Diagnostic error = input_error("knob-range", "knob taps takes 1 to 256", "scene.toml", 3, 7);
     error.notes = {"hint: use 256"};
-    EXPECT_EQ(to_string(error), "scene.toml:3:7: error: knob taps takes 1 to 256 [knob-range]\n  hint: use 256");
+    EXPECT_EQ(to_string(error),
+              "scene.toml:3:7: error: knob taps takes 1 to 256 [knob-range]\n  hint: use 256");
     EXPECT_EQ(to_string(input_error("a", "b")), "error: b [a]");
-    EXPECT_EQ(to_string(input_error("a", "b", "f", 0, 9)), "f: error: b [a]") << "a column without a line means nothing";
+    EXPECT_EQ(to_string(input_error("a", "b", "f", 0, 9)), "f: error: b [a]")
+        << "a column without a line means nothing";
 }
 
 TEST(Result, HoldsAValueOrAnError) {
@@ -31,9 +33,11 @@ TEST(NearestName, FindsATypingError) {
     EXPECT_EQ(nearest_name("paralax_oclusion", names), "parallax_occlusion");
     EXPECT_EQ(nearest_name("steep_paralax", names), "steep_parallax");
     EXPECT_EQ(nearest_name("qqqqqqqqqqqqqqqqqqqqqqqqqqqqqqqq", names), "");
-    EXPECT_EQ(unknown_name_sentence("search", "nnoe", names), "unknown search 'nnoe'; did you mean 'none'?");
-    EXPECT_EQ(unknown_name_sentence("search", "zzzzzzzzzzzzzz", names),
-              "unknown search 'zzzzzzzzzzzzzz'; there are: parallax_occlusion, steep_parallax, none");
+    EXPECT_EQ(unknown_name_sentence("search", "nnoe", names),
+              "unknown search 'nnoe'; did you mean 'none'?");
+    EXPECT_EQ(
+        unknown_name_sentence("search", "zzzzzzzzzzzzzz", names),
+        "unknown search 'zzzzzzzzzzzzzz'; there are: parallax_occlusion, steep_parallax, none");
 }
 
 TEST(TextBuilder, IndentsLinesButNotEmptyOnes) {

@@ -1,4 +1,5 @@
-// What the DSL records: values, variables, loops, ifs, names, lines and steps, checked by evaluating the IR.
+// What the DSL records: values, variables, loops, ifs, names, lines and steps, checked by
+// evaluating the IR.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -62,7 +63,8 @@ TEST(Recording, ArithmeticMeansWhatItSays) {
     });
     EXPECT_DOUBLE_EQ(vectors(3, 5), 0.5 * (6 + 10 + 1 + 3) + (5 - 3));
     const Recorded functions([](float1 x, float1 y) {
-        return max(min(x, y), 0.25f) + saturate(x) + floor(y) + frac(y) + abs(-x) + lerp(x, y, 0.5f) + select(x < y && !(x == y), float1(100.0f), 0.0f);
+        return max(min(x, y), 0.25f) + saturate(x) + floor(y) + frac(y) + abs(-x) +
+               lerp(x, y, 0.5f) + select(x < y && !(x == y), float1(100.0f), 0.0f);
     });
     EXPECT_DOUBLE_EQ(functions(0.5, 2.25), 0.5 + 0.5 + 2 + 0.25 + 0.5 + 1.375 + 100);
 }
@@ -103,7 +105,8 @@ TEST(Recording, UntilLeavesWithTheValuesItSees) {
         return t * 10 + seen;
     });
     EXPECT_DOUBLE_EQ(first_above(2), 22);
-    EXPECT_DOUBLE_EQ(first_above(-1), 0) << "left in the first iteration, after `seen` was assigned";
+    EXPECT_DOUBLE_EQ(first_above(-1), 0)
+        << "left in the first iteration, after `seen` was assigned";
     EXPECT_DOUBLE_EQ(first_above(99), 54) << "never left early";
 }
 
@@ -112,7 +115,10 @@ TEST(Recording, LoopsNestAndIfsCarryOut) {
     const Recorded count([&](float1 x, float1) -> float1 {
         var<float1> inside{"inside", 0.0f};
         for (int1 i : knobs.loop)
-            for (int1 j : knobs.inner) If(float1(i + j) < x, [&] { inside = inside + 1; }, [&] { inside = inside + 0.5f; });
+            for (int1 j : knobs.inner)
+                If(
+                    float1(i + j) < x, [&] { inside = inside + 1; },
+                    [&] { inside = inside + 0.5f; });
         return inside;
     });
     EXPECT_DOUBLE_EQ(count(3), 6 * 1 + 19 * 0.5);
@@ -140,7 +146,8 @@ TEST(Recording, AVariableReadsAsItsPresentValue) {
 TEST(Recording, NamesLinesAndStepsReachTheIr) {
     const Recorded f([](float1 x, float1) -> float1 {
         Step step("half", "Take half of it.");
-        return let("half_of_x", x * 0.5f); });
+        return let("half_of_x", x * 0.5f);
+    });
     EXPECT_THAT(f.text(), HasSubstr("\"half_of_x\""));
     EXPECT_THAT(f.text(), HasSubstr("tests/unit/dsl/recording_test.cpp"));
     EXPECT_THAT(f.text(), HasSubstr("\"Take half of it.\""));
@@ -160,7 +167,8 @@ TEST(Recording, ALoopLeftByBreakIsAnError) {
 TEST(Recording, UntilInsideAnIfIsAnErrorWithItsLine) {
     Knobs knobs;
     const Recorded f([&](float1 x, float1) -> float1 {
-        for ([[maybe_unused]] int1 i : knobs.loop) If(x > 0.0f, [&] { knobs.loop.until(x > 1.0f); });
+        for ([[maybe_unused]] int1 i : knobs.loop)
+            If(x > 0.0f, [&] { knobs.loop.until(x > 1.0f); });
         return x;
     });
     ASSERT_FALSE(f.status().ok());
@@ -173,7 +181,8 @@ TEST(Knob, KeepsItsRange) {
     Knobs knobs;
     EXPECT_TRUE(knobs.count.set("7").ok());
     EXPECT_EQ(knobs.count.value(), 7);
-    for (const char* bad : {"", "x", "7x", "nan", "inf", "1e400", "0x7", " 7"}) EXPECT_EQ(knobs.count.set(bad).error().code, "knob-value") << bad;
+    for (const char* bad : {"", "x", "7x", "nan", "inf", "1e400", "0x7", " 7"})
+        EXPECT_EQ(knobs.count.set(bad).error().code, "knob-value") << bad;
     EXPECT_EQ(knobs.count.set("7.5").error().code, "knob-value");
     EXPECT_EQ(knobs.count.set("11").error().code, "knob-range");
     EXPECT_EQ(knobs.count.set("-1").error().code, "knob-range");
@@ -190,7 +199,8 @@ TEST(Schedule, PatternsMatchTargets) {
 }
 
 TEST(Schedule, TheFirstMatchHolds) {
-    for (const auto& [target, form] : {std::pair{"ps_2_b", "unrolled"}, std::pair{"glsl_450", "rolled"}}) {
+    for (const auto& [target, form] :
+         {std::pair{"ps_2_b", "unrolled"}, std::pair{"glsl_450", "rolled"}}) {
         Knobs knobs;
         ir::Module module;
         module.stage = ir::Stage::Function;

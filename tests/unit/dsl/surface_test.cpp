@@ -25,7 +25,8 @@ std::vector<std::string> compositions() {
     for (const auto& search : catalogue().searches)
         for (const auto& shadow : catalogue().shadows)
             for (const auto& output : catalogue().outputs)
-                all.push_back("search=" + search.name + ",shadow=" + shadow.name + ",output=" + output.name);
+                all.push_back("search=" + search.name + ",shadow=" + shadow.name +
+                              ",output=" + output.name);
     return all;
 }
 
@@ -56,13 +57,16 @@ TEST(Surface, RecordingIsDeterministic) {
 TEST(Surface, FunctionsTakeTheirArgumentsAsTheConventionsSay) {
     const Result<Surface> surface = make_surface(catalogue(), "steep_parallax,shadow=march");
     for (FunctionPart part : {FunctionPart::Search, FunctionPart::Shadow}) {
-        const Result<ir::Program> program = record_function(*surface, part, {"glsl_450", {}, false});
+        const Result<ir::Program> program =
+            record_function(*surface, part, {"glsl_450", {}, false});
         ASSERT_TRUE(program.ok());
         EXPECT_TRUE(ir::verify(program->pixel).ok());
         std::vector<std::string> names;
         for (const ir::Declaration& input : program->pixel.inputs) names.push_back(input.name);
-        if (part == FunctionPart::Search) EXPECT_THAT(names, testing::ElementsAre("uv", "view"));
-        else EXPECT_THAT(names, testing::ElementsAre("uv", "height", "light"));
+        if (part == FunctionPart::Search)
+            EXPECT_THAT(names, testing::ElementsAre("uv", "view"));
+        else
+            EXPECT_THAT(names, testing::ElementsAre("uv", "height", "light"));
     }
 }
 
@@ -71,7 +75,9 @@ TEST(Surface, NamesOfKnobsAreUniqueOverAllTechniques) {
     const auto add = [&](const auto& table) {
         for (const auto& row : table) {
             const auto technique = row.make();
-            for (const KnobBase* knob : technique->knobs()) EXPECT_TRUE(names.insert(knob->name()).second || row.name == "none") << knob->name();
+            for (const KnobBase* knob : technique->knobs())
+                EXPECT_TRUE(names.insert(knob->name()).second || row.name == "none")
+                    << knob->name();
         }
     };
     add(catalogue().searches);
@@ -80,7 +86,8 @@ TEST(Surface, NamesOfKnobsAreUniqueOverAllTechniques) {
     add(catalogue().shadings);
     add(catalogue().outputs);
     const ReliefKnobs relief;
-    for (const KnobBase* knob : relief.knobs()) EXPECT_TRUE(names.insert(knob->name()).second) << knob->name();
+    for (const KnobBase* knob : relief.knobs())
+        EXPECT_TRUE(names.insert(knob->name()).second) << knob->name();
 }
 
 TEST(Surface, EveryKnobWorksAtBothEndsOfItsRange) {
@@ -91,16 +98,22 @@ TEST(Surface, EveryKnobWorksAtBothEndsOfItsRange) {
                 const Result<Surface> surface = make_surface(catalogue(), text);
                 KnobBase* knob = surface->knobs()[i];
                 ASSERT_TRUE(knob->set(most ? knob->most() : knob->least()).ok());
-                const Result<ir::Program> program = record_surface(*surface, {"glsl_450", {}, false});
-                // Two knobs that bound one range may cross: then the technique says so in a sentence.
-                if (!program) EXPECT_EQ(program.error().code, "knob-relation") << text << " " << knob->name();
-                else EXPECT_TRUE(ir::verify(program->pixel).ok()) << text << " " << knob->name();
+                const Result<ir::Program> program =
+                    record_surface(*surface, {"glsl_450", {}, false});
+                // Two knobs that bound one range may cross: then the technique says so in a
+                // sentence.
+                if (!program)
+                    EXPECT_EQ(program.error().code, "knob-relation") << text << " " << knob->name();
+                else
+                    EXPECT_TRUE(ir::verify(program->pixel).ok()) << text << " " << knob->name();
             }
     }
 }
 
 TEST(Surface, WrongNamesGetTheNearest) {
-    const auto error = [](std::string_view text) { return make_surface(catalogue(), text).error(); };
+    const auto error = [](std::string_view text) {
+        return make_surface(catalogue(), text).error();
+    };
     EXPECT_EQ(error("paralax").code, "unknown-surface");
     EXPECT_THAT(error("steep_paralax").message, HasSubstr("did you mean 'steep_parallax'"));
     EXPECT_EQ(error("search=").code, "unknown-technique");
@@ -114,7 +127,8 @@ TEST(Surface, WrongNamesGetTheNearest) {
 
 TEST(Surface, UnknownLoopsAreRefused) {
     const Result<Surface> surface = make_surface(catalogue(), "parallax_occlusion");
-    const Result<ir::Program> program = record_surface(*surface, {"glsl_450", {{"mrach", ir::LoopForm::Unrolled}}, false});
+    const Result<ir::Program> program =
+        record_surface(*surface, {"glsl_450", {{"mrach", ir::LoopForm::Unrolled}}, false});
     ASSERT_FALSE(program.ok());
     EXPECT_EQ(program.error().code, "unknown-loop");
     EXPECT_THAT(program.error().message, HasSubstr("did you mean 'march'"));

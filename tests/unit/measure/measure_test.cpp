@@ -1,4 +1,5 @@
-// What is measured, without a device: directions, maps as textures, and how a reported hit is judged.
+// What is measured, without a device: directions, maps as textures, and how a reported hit is
+// judged.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +14,8 @@ namespace intaglio::measure {
 namespace {
 
 TEST(Direction, IsAUnitVector) {
-    EXPECT_THAT(vector_of({90, 77}), testing::ElementsAre(0, 0, 1)) << "straight down exactly, whatever the azimuth";
+    EXPECT_THAT(vector_of({90, 77}), testing::ElementsAre(0, 0, 1))
+        << "straight down exactly, whatever the azimuth";
     EXPECT_THAT(vector_of({0, 0}), testing::ElementsAre(1, 0, 0));
     EXPECT_THAT(vector_of({0, 90}), testing::ElementsAre(0, 1, 0)) << "no 6e-17 along u";
     EXPECT_LT(vector_of({-10, 0})[2], 0);
@@ -29,13 +31,17 @@ TEST(MapSet, TexturesHoldWhatTheMapHolds) {
     const vulkan::Texture height = height_texture(*set, Filtering::Float);
     EXPECT_EQ(height.levels.size(), 6u) << "32 x 16 down to 1 x 1";
     EXPECT_EQ(height.levels[0][4 * (3 * 32 + 5)], set->heights.at(5, 3));
-    EXPECT_EQ(normal_texture(*set, Filtering::Float).levels[0][4 * (3 * 32 + 5) + 3], set->heights.at(5, 3)) << "height in alpha";
-    EXPECT_EQ(height_texture(*set, Filtering::Native).format, vulkan::Texture::Format::Rgba16Unorm) << "procedural maps have 16 bits";
+    EXPECT_EQ(normal_texture(*set, Filtering::Float).levels[0][4 * (3 * 32 + 5) + 3],
+              set->heights.at(5, 3))
+        << "height in alpha";
+    EXPECT_EQ(height_texture(*set, Filtering::Native).format, vulkan::Texture::Format::Rgba16Unorm)
+        << "procedural maps have 16 bits";
     EXPECT_EQ(set->height_field(reference::FilterWeights::Exact).heights.size(), 32u * 16u);
     EXPECT_EQ(make_map_set("brcks", 8, 8, 0.1).error().code, "unknown-map");
 }
 
-// A picture that reports, for every pixel, the exact hit moved along the ray by `shift` of the ray's length.
+// A picture that reports, for every pixel, the exact hit moved along the ray by `shift` of the
+// ray's length.
 struct Reported {
     reference::HeightField field;
     ExactPicture exact;
@@ -55,14 +61,17 @@ Reported report(const std::string& maker, double shift) {
     for (std::size_t i = 0; i < made.exact.hits.size(); ++i) {
         const reference::Hit& hit = made.exact.hits[i];
         const double extra = std::clamp(hit.t + shift, 0.0, 1.0) - hit.t;
-        made.picture.pixels.push_back({static_cast<float>(hit.uv.x - v.x / v.z * scale * extra), static_cast<float>(hit.uv.y - v.y / v.z * scale * extra),
-                                       static_cast<float>(hit.height - extra), made.exact.lit[i] ? 1.0f : 0.0f});
+        made.picture.pixels.push_back({static_cast<float>(hit.uv.x - v.x / v.z * scale * extra),
+                                       static_cast<float>(hit.uv.y - v.y / v.z * scale * extra),
+                                       static_cast<float>(hit.height - extra),
+                                       made.exact.lit[i] ? 1.0f : 0.0f});
     }
     return made;
 }
 
 HitStatistics judge(const Reported& reported) {
-    return summarize(compare_hits(reported.picture, reported.exact, reported.field, view, scale), size);
+    return summarize(compare_hits(reported.picture, reported.exact, reported.field, view, scale),
+                     size);
 }
 
 TEST(Hits, TheExactPictureHasNoError) {

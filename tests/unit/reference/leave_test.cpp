@@ -1,4 +1,5 @@
-// Whether a ray that has reached the relief rises out of it again: against dense sampling, and on a wall.
+// Whether a ray that has reached the relief rises out of it again: against dense sampling, and on a
+// wall.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +11,8 @@ namespace intaglio::reference {
 namespace {
 
 TEST(LeavesRelief, OnlyBehindAWall) {
-    // One wall of height 1 and one texel wide on a floor at 0: the ray enters it, and leaves it on the other side.
+    // One wall of height 1 and one texel wide on a floor at 0: the ray enters it, and leaves it on
+    // the other side.
     HeightField field{64, 1, std::vector<double>(64, 0.0)};
     field.heights[20] = 1;
     const Vec3 view{-1, 0, 1};  // the ray travels towards +u
@@ -20,7 +22,8 @@ TEST(LeavesRelief, OnlyBehindAWall) {
     ASSERT_TRUE(hit.found);
     EXPECT_NEAR(hit.uv.x * 64, 20, 1);
     EXPECT_TRUE(leaves_relief(field, uv, view, scale, hit.t, 1)) << "the floor behind the wall";
-    EXPECT_FALSE(leaves_relief(field, uv, view, scale, hit.t, hit.t + 0.01)) << "still inside the wall";
+    EXPECT_FALSE(leaves_relief(field, uv, view, scale, hit.t, hit.t + 0.01))
+        << "still inside the wall";
     EXPECT_FALSE(leaves_relief(field, uv, view, scale, hit.t, hit.t)) << "nothing in between";
     EXPECT_FALSE(leaves_relief(field, uv, {-1, 0, -1}, scale, 0, 1)) << "no answer from below";
 }
@@ -32,8 +35,10 @@ TEST(LeavesRelief, AgreesWithDenseSampling) {
     std::uniform_real_distribution<double> unit(0, 1);
     int left = 0, stayed = 0;
     for (int trial = 0; trial < 3000; ++trial) {
-        const int width = 1 + static_cast<int>(random() % 12), height = 1 + static_cast<int>(random() % 12);
-        HeightField field{width, height, std::vector<double>(static_cast<std::size_t>(width * height))};
+        const int width = 1 + static_cast<int>(random() % 12),
+                  height = 1 + static_cast<int>(random() % 12);
+        HeightField field{width, height,
+                          std::vector<double>(static_cast<std::size_t>(width * height))};
         for (double& texel : field.heights) texel = unit(random);
         const Vec2 uv{unit(random) * 3, unit(random) * 3};
         const Vec3 view{unit(random) * 2 - 1, unit(random) * 2 - 1, unit(random) + 0.05};
@@ -42,7 +47,8 @@ TEST(LeavesRelief, AgreesWithDenseSampling) {
         ASSERT_TRUE(hit.found);
         const double end = hit.t + (1 - hit.t) * unit(random);
         const double tolerance = 0.5 / 255;
-        // The least gap that sampling sees is above the true least by no more than a sample's step times the slope.
+        // The least gap that sampling sees is above the true least by no more than a sample's step
+        // times the slope.
         double least = 1;
         for (int i = 0; i <= 4000; ++i) {
             const double t = hit.t + (end - hit.t) * i / 4000;
