@@ -72,6 +72,7 @@ Result<std::vector<std::string>> optimize(ir::Module& module, const PipelineOpti
     // Each round needs the one before it to have found something; real modules settle in two or
     // three.
     for (int round = 0; round < 16; ++round) {
+        // The run changes it.  NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
         const Module before = module;
         run_once(run, options, notes);
         if (run.error()) return *run.error();
@@ -90,7 +91,7 @@ Result<std::vector<std::string>> optimize_program(ir::Program& program,
     append(hoist_to_vertex(program, options.interpolants));
     remove_unused_interpolants(program);
     for (Module* stage : {&program.vertex, &program.pixel}) {
-        const auto more = optimize(*stage, options);
+        auto more = optimize(*stage, options);
         if (!more) return more;
         append(*more);
     }

@@ -2,12 +2,10 @@
 #include "src/maps/makers.h"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
-
+#include "generator/base/nearest.h"
 #include "src/maps/patterns.h"
 
 namespace intaglio::maps {
@@ -62,35 +60,13 @@ constexpr Maker table[] = {
     {"ramp", "a plane rising along u with a wall of full height at the seam", ramp, sandstone},
 };
 
-// Levenshtein's distance: the fewest insertions, deletions and replacements of letters.
-std::size_t edits_between(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-        }
-    }
-    return row.back();
-}
-
 Result<const Maker*> find_maker(std::string_view name) {
-    const Maker* nearest = &table[0];
-    std::string names;
+    std::vector<std::string> names;
     for (const Maker& maker : table) {
         if (maker.name == name) return &maker;
-        if (edits_between(name, maker.name) < edits_between(name, nearest->name)) nearest = &maker;
-        names += fmt::format("{}{}", names.empty() ? "" : ", ", maker.name);
+        names.emplace_back(maker.name);
     }
-    Diagnostic unknown = input_error(
-        "unknown-map",
-        fmt::format("there is no procedural map \"{}\"; did you mean {}?", name, nearest->name));
-    unknown.notes.push_back("hint: the procedural maps are " + names);
-    return unknown;
+    return input_error("unknown-map", unknown_name_sentence("procedural map", name, names));
 }
 
 std::array<float, 3> colour_at(const Colours& colours, float height) {

@@ -180,7 +180,7 @@ Result<Image> decode(spng_ctx* context) {
 
 unsigned quantised(float value, float largest) {
     if (!(value > 0.0f)) return 0;  // also NaN
-    return static_cast<unsigned>(std::min(value, 1.0f) * largest + 0.5f);
+    return static_cast<unsigned>(std::lround(std::min(value, 1.0f) * largest));
 }
 
 std::vector<unsigned char> integers_of(const Image& image) {

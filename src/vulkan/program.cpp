@@ -189,7 +189,7 @@ Status Program::set_uniform(const std::string& name, const std::vector<float>& v
     for (UniformBlock& block : state_->resources.blocks) {
         for (const BlockMember& member : block.members) {
             if (member.layout.name != name) continue;
-            const Status written = write_member(block.bytes, member, values);
+            Status written = write_member(block.bytes, member, values);
             if (!written) return written;
             std::memcpy(block.buffer.mapped, block.bytes.data(), block.bytes.size());
         }

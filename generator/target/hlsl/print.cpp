@@ -15,8 +15,6 @@
 namespace intaglio::hlsl {
 namespace {
 
-using clike::Kind;
-
 std::string type_of(const Dialect& dialect, ir::Type type) {
     return std::string(
         clike::type_name(dialect.spelling, static_cast<int>(type.scalar), type.width));

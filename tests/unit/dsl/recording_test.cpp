@@ -149,9 +149,8 @@ TEST(Recording, NamesLinesAndStepsReachTheIr) {
         return let("half_of_x", x * 0.5f);
     });
     EXPECT_THAT(f.text(), HasSubstr("\"half_of_x\""));
-    EXPECT_THAT(f.text(), HasSubstr("tests/unit/dsl/recording_test.cpp"));
+    EXPECT_THAT(f.text(), HasSubstr("file \"tests/unit/dsl/recording_test.cpp\"")) << "relative to the project";
     EXPECT_THAT(f.text(), HasSubstr("\"Take half of it.\""));
-    EXPECT_EQ(f.text().find("/work"), std::string::npos) << "paths are relative to the project";
 }
 
 TEST(Recording, ALoopLeftByBreakIsAnError) {

@@ -203,9 +203,7 @@ TEST(Makers, AnUnknownNameGetsTheNearestOne) {
         const Result<Image> image = make_height_map(wrong, 4, 4, 1);
         ASSERT_FALSE(image.ok());
         EXPECT_EQ(image.error().code, "unknown-map");
-        EXPECT_THAT(image.error().message, HasSubstr(std::string("did you mean ") + right + "?"));
-        ASSERT_EQ(image.error().notes.size(), 1u);
-        EXPECT_THAT(image.error().notes[0], HasSubstr("cobbles"));
+        EXPECT_THAT(image.error().message, HasSubstr(std::string("did you mean '") + right + "'?"));
         EXPECT_EQ(make_colour_map(wrong, blank_image(1, 1, 1, 8)).error().code, "unknown-map");
     }
     EXPECT_FALSE(make_height_map("", 4, 4, 1).ok());
