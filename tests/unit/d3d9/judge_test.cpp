@@ -1,13 +1,11 @@
-// Direct3D's own assembler, validator and compiler as witnesses, where they are installed: the
-// command named by INTAGLIO_JUDGE, or ~/.cache/d3d-judge/judge.  Each start of it takes seconds, so
-// whole batches are judged at once.
+// Direct3D's own assembler, validator and compiler as witnesses, where they are installed.  Each
+// start takes seconds, so whole batches are judged at once.
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <iterator>
 #include <sstream>
 
@@ -16,6 +14,7 @@
 
 #include "generator/target/d3d9/assembly.h"
 #include "generator/target/d3d9/bytecode.h"
+#include "tests/judge/judge.h"
 #include "tests/unit/d3d9/dice.h"
 #include "tests/unit/d3d9/random_shader.h"
 
@@ -24,12 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Words = std::vector<std::uint32_t>;
-
-fs::path judge_path() {
-    if (const char* named = std::getenv("INTAGLIO_JUDGE")) return named;
-    const char* home = std::getenv("HOME");
-    return fs::path(home ? home : "") / ".cache/d3d-judge/judge";
-}
 
 struct Verdict {
     int code = -1;
@@ -76,7 +69,7 @@ class Court {
         write("list", list);
         const std::string out = path("out");
         const std::string shell = fmt::format("'{}' batch '{}' > '{}' 2>/dev/null",
-                                              judge_path().string(), path("list"), out);
+                                              judge::find()->string(), path("list"), out);
         EXPECT_EQ(std::system(shell.c_str()), 0) << shell;
         std::vector<Verdict> verdicts(1);
         std::istringstream lines(read_text(out));
@@ -258,14 +251,3 @@ TEST(JudgeCompiler, WritesWhatWeRead) {
 
 }  // namespace
 }  // namespace intaglio::d3d9
-
-int main(int count, char** words) {
-    const auto judge = intaglio::d3d9::judge_path();
-    if (!std::filesystem::exists(judge)) {
-        std::cout << "not run: Direct3D's assembler is not installed (no " << judge.string()
-                  << "; INTAGLIO_JUDGE can name another)\n";
-        return 77;
-    }
-    testing::InitGoogleTest(&count, words);
-    return RUN_ALL_TESTS();
-}
