@@ -1,5 +1,7 @@
 // How right the searches are, against the exact reference: the relations that the papers claim,
 // with margin.
+#include <algorithm>
+
 #include "tests/exec/bench.h"
 
 #include "src/measure/hits.h"
@@ -100,6 +102,20 @@ TEST(Accuracy, TheShadowMarchAgreesWithTheExactShadowMostly) {
                      {60, 20}, {25, 130});
     EXPECT_GT(none.shadow_wrong, none.pixels / 50) << "the scene has shadows";
     EXPECT_LT(march.shadow_wrong, none.shadow_wrong / 2) << "and the march finds most of them";
+}
+
+TEST(Accuracy, ALightAtOrBelowTheHorizonLightsNothing) {
+    // Without its guard the march would follow a ray that goes down, or the flattest one, and find
+    // it free.
+    Drawing drawing(request("steep_parallax,shadow=march,output=displaced", "glsl_450"),
+                    map_named("flat1"), 16);
+    const auto lit = [&](double elevation) {
+        const vulkan::Picture picture = drawing.at({60, 20}, {elevation, 130})[0];
+        return std::count_if(picture.pixels.begin(), picture.pixels.end(),
+                             [](const std::array<float, 4>& pixel) { return pixel[3] != 0; });
+    };
+    for (double elevation : {0.0, -30.0, -90.0}) EXPECT_EQ(lit(elevation), 0) << elevation;
+    EXPECT_EQ(lit(30), 16 * 16);
 }
 
 }  // namespace

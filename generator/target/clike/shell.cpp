@@ -80,6 +80,18 @@ NameScope InterfaceNames::scope_of(const ir::Program& program, ir::Stage stage) 
     return scope;
 }
 
+FunctionNames names_of_function(const ir::Module& function) {
+    FunctionNames names;
+    names.function = names.scope.declare(function.name, "find");
+    for (const ir::Declaration& input : function.inputs)
+        names.outer.inputs.push_back(names.scope.declare(input.name));
+    for (const ir::Sampler& sampler : function.samplers)
+        names.outer.samplers.push_back(declare_sampler(names.scope, sampler.name));
+    for (const ir::Uniform& uniform : function.uniforms)
+        names.outer.uniforms.push_back(names.scope.declare(uniform.name));
+    return names;
+}
+
 void put_header(TextBuilder& out, const ir::Program& program, ir::Stage stage,
                 const Target& target) {
     const std::string_view what = stage == ir::Stage::Vertex  ? "vertex stage"

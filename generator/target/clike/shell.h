@@ -10,6 +10,7 @@
 #include "generator/base/result.h"
 #include "generator/base/text.h"
 #include "generator/ir/module.h"
+#include "generator/target/clike/expressions.h"
 #include "generator/target/clike/names.h"
 #include "generator/target/target.h"
 
@@ -45,6 +46,14 @@ class InterfaceNames {
 // A name for a texture, with "<name>_sampler" free for the sampler state beside it in languages
 // that part the two.
 std::string declare_sampler(NameScope& scope, std::string_view wanted);
+
+// The names of a function and of everything it sees outside its body.
+struct FunctionNames {
+    std::string function;
+    NameScope scope;
+    OuterNames outer;
+};
+FunctionNames names_of_function(const ir::Module& function);
 
 // "name: pixel stage for glsl_450", the description, the settings.
 void put_header(TextBuilder& out, const ir::Program& program, ir::Stage stage,

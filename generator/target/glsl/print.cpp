@@ -230,15 +230,7 @@ Result<Artifact> print_stage(const Dialect& dialect, const ir::Program& program,
 Result<Artifact> print_function(const Dialect& dialect, const ir::Program& program,
                                 Binding binding) {
     const ir::Module& function = program.pixel;
-    clike::NameScope scope;
-    clike::OuterNames outer;
-    const std::string name = scope.declare(function.name, "find");
-    for (const ir::Declaration& input : function.inputs)
-        outer.inputs.push_back(scope.declare(input.name));
-    for (const ir::Sampler& sampler : function.samplers)
-        outer.samplers.push_back(clike::declare_sampler(scope, sampler.name));
-    for (const ir::Uniform& uniform : function.uniforms)
-        outer.uniforms.push_back(scope.declare(uniform.name));
+    auto [name, scope, outer] = clike::names_of_function(function);
 
     TextBuilder out;
     clike::put_header(out, program, ir::Stage::Function, dialect.target);

@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
+#include "generator/ir/evaluate.h"
 #include "generator/ir/parse.h"
 #include "generator/ir/print.h"
 #include "generator/ir/verify.h"
@@ -132,6 +134,25 @@ TEST(Surface, UnknownLoopsAreRefused) {
     ASSERT_FALSE(program.ok());
     EXPECT_EQ(program.error().code, "unknown-loop");
     EXPECT_THAT(program.error().message, HasSubstr("did you mean 'march'"));
+}
+
+TEST(Surface, TheHighlightIsDefinedWhereTheNormalFacesAway) {
+    // N.L > 0 and N.H < 0: without its guard the power of a negative base is NaN.
+    const Result<Surface> surface = make_surface(catalogue(), "bump");
+    const Result<ir::Program> program = record_surface(*surface, {"glsl_450", {}, false});
+    ASSERT_TRUE(program.ok());
+    ir::Texture away;
+    away.levels = {{0.75f, 0.5f, 0.067f, 1.0f}};
+    ir::Environment environment;
+    for (const ir::Declaration& input : program->pixel.inputs)
+        environment.inputs.push_back(input.name == "to_light"
+                                         ? ir::Environment::Vector{1, 0, 0.01, 0}
+                                         : ir::Environment::Vector{0, 0, 1, 0});
+    environment.uniforms.assign(program->pixel.uniforms.size(), {{1, 1, 1, 1}});
+    environment.samplers.assign(program->pixel.samplers.size(), &away);
+    const ir::Evaluation pixel =
+        ir::Evaluator(program->pixel).run(environment, ir::Precision::Single);
+    for (double component : pixel.outputs[0]) EXPECT_TRUE(std::isfinite(component));
 }
 
 TEST(Surface, PartsAreReplaced) {
