@@ -13,14 +13,20 @@ float3 unit_input(std::string_view name, std::string_view unit_name) {
     return let(unit_name, normalize(input<3>(name)));
 }
 
+float1 relief_scale() { return uniform<1>("scale", "depth of the relief in texture units"); }
+
 Relief make_relief(const Surface& surface) {
     const bool packed = surface.relief->packed == 1;
     const sampler2D map =
         packed ? sampler2D("normal_map", "tangent-space normal in rgb, height in alpha")
                : sampler2D("height_map", "height in red: 1 is the polygon, 0 the deepest");
     const float2 map_size = uniform<2>("map_size", "size of the height map in texels");
-    const float1 scale = uniform<1>("scale", "depth of the relief in texture units");
-    return {map, packed, scale, map_size, float1(surface.relief->level.value())};
+    return {map, packed, relief_scale(), map_size, float1(surface.relief->level.value())};
+}
+
+Ray make_ray(const Surface& surface, const Relief& relief, float2 uv, float3 view) {
+    if (surface.relief->ray_per_vertex == 0) return Ray::through(relief, uv, view);
+    return {uv, view, input<2>("reach")};
 }
 
 Status check_techniques(const Surface& surface) {
@@ -60,7 +66,7 @@ Status record_pixel(const Surface& surface, const RecordOptions& options, ir::Pr
     const Relief relief = make_relief(surface);
     const auto search = [&] {
         Step step("search", "Where does the view ray meet the relief first?");
-        return surface.search->find(relief, Ray::through(relief, uv, view));
+        return surface.search->find(relief, make_ray(surface, relief, uv, view));
     };
     const Hit hit = search();
     const float3 light = unit_input("to_light", "light");
@@ -85,8 +91,14 @@ Status record_vertex(const Surface& surface, ir::Program& program) {
                               {"uv", ir::float2, ir::Semantic::Interpolant},
                               {"to_eye", ir::float3, ir::Semantic::Interpolant},
                               {"to_light", ir::float3, ir::Semantic::Interpolant}};
-    return recorder.finish(
-        {vertex.position.id(), vertex.uv.id(), vertex.to_eye.id(), vertex.to_light.id()});
+    std::vector<ir::ValueId> values = {vertex.position.id(), vertex.uv.id(), vertex.to_eye.id(),
+                                       vertex.to_light.id()};
+    if (surface.relief->ray_per_vertex == 1) {
+        program.vertex.outputs.push_back({"reach", ir::float2, ir::Semantic::Interpolant});
+        const float3 view = let("view", normalize(vertex.to_eye));
+        values.push_back(Ray::reach_of(relief_scale(), view).id());
+    }
+    return recorder.finish(values);
 }
 
 }  // namespace
@@ -161,7 +173,7 @@ Result<ir::Program> record_function(const Surface& surface, FunctionPart part,
     if (part == FunctionPart::Search) {
         const float3 view = unit_input("view", "unit_view");
         const Relief relief = make_relief(surface);
-        const Hit hit = surface.search->find(relief, Ray::through(relief, uv, view));
+        const Hit hit = surface.search->find(relief, make_ray(surface, relief, uv, view));
         const float3 result = let("result", float3(hit.uv, hit.height));
         module.outputs = {{"result", ir::float3, ir::Semantic::Result}};
         if (Status status = recorder.finish({result.id()}); !status) return status.error();

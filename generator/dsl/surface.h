@@ -25,6 +25,15 @@ class ReliefKnobs : public Technique {
         at_most{1},
         "1: heights in the alpha channel of normal_map; 0: in the red channel of height_map"};
     Knob<float> level{this, "level", 0.0f, at_least{0}, at_most{16}, "mip level of height reads"};
+    // Interpolating V.xy / V.z is exact on a flat polygon with one tangent frame, where V before
+    // normalisation has the same z everywhere; elsewhere it bends with the mesh's vertices.
+    Knob<int> ray_per_vertex{
+        this,
+        "ray_per_vertex",
+        0,
+        at_least{0},
+        at_most{1},
+        "1: the ray's reach is computed at the vertices and interpolated; 0: at each pixel"};
 };
 
 struct Surface {
@@ -59,7 +68,8 @@ struct RecordOptions {
 Result<ir::Program> record_surface(const Surface& surface, const RecordOptions& options);
 
 // One part of a surface as a function to paste into a shader of one's own:
-//   Search: float3 find(float2 uv, float3 view): displaced coordinate and height
+//   Search: float3 find(float2 uv, float3 view): displaced coordinate and height; with
+//           ray_per_vertex = 1 a third parameter, float2 reach
 //   Shadow: float1 visibility(float2 uv, float1 height, float3 light)
 enum class FunctionPart { Search, Shadow };
 Result<ir::Program> record_function(const Surface& surface, FunctionPart part,

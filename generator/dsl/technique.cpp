@@ -8,9 +8,8 @@ float1 Relief::height_at_level(float2 uv, float1 mip_level, Place place) const {
     return in_alpha ? texel.w() : texel.x();
 }
 
-Ray Ray::through(const Relief& relief, float2 uv, float3 view) {
-    const float2 reach = let("reach", view.xy() / max(view.z(), float1(least_z)) * relief.scale);
-    return {uv, view, reach};
+float2 Ray::reach_of(float1 scale, float3 view) {
+    return let("reach", view.xy() / max(view.z(), float1(least_z)) * scale);
 }
 
 }  // namespace intaglio::dsl

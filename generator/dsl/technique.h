@@ -61,8 +61,12 @@ struct Ray {
     // Below this V.z the ray is as flat as it gets: 89.94 degrees.  Keeps V.xy / V.z finite.
     static constexpr float least_z = 1.0f / 1024.0f;
 
-    // Written with one division by V.z and no normalize of V.xy, which is 0 / 0 straight down.
-    static Ray through(const Relief& relief, float2 uv, float3 view);
+    // V.xy / V.z * scale for a unit V, written with one division and no normalize of V.xy, which is
+    // 0 / 0 straight down.
+    static float2 reach_of(float1 scale, float3 view);
+    static Ray through(const Relief& relief, float2 uv, float3 view) {
+        return {uv, view, reach_of(relief.scale, view)};
+    }
     float2 at(float1 t) const { return uv - reach * t; }
 };
 
