@@ -22,7 +22,7 @@ struct Wanted {
 struct VirtualSource {
     enum class Kind : std::uint8_t { Temp, Constant, Uniform, Input };
     Kind kind = Kind::Temp;
-    int index = 0;  // virtual register, c# or input; of a constant, its definition once pooled
+    int index = 0;  // virtual register, c#, t# or v#; of a constant, its definition once pooled
     Swizzle swizzle = identity_swizzle;
     bool negate = false;
     Wanted wanted;  // Constant

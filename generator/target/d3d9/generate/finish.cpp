@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <set>
 
 namespace intaglio::d3d9 {
 namespace {
@@ -28,7 +29,7 @@ class Finish {
         result_.failed_at = allocation.failed_at;
         for (const VirtualInstruction& instruction : code.instructions)
             result_.shader.instructions.push_back(convert(instruction, allocation));
-        declare(code, uniforms);
+        declare(graph, code, uniforms);
         return std::move(result_);
     }
 
@@ -94,24 +95,26 @@ class Finish {
         return to;
     }
 
-    void declare(const Code& code, const std::vector<int>& uniforms) {
-        std::vector<char> inputs(module_.inputs.size()), samplers(module_.samplers.size());
+    void declare(const Graph& graph, const Code& code, const std::vector<int>& uniforms) {
+        std::set<int> inputs;
+        std::vector<char> samplers(module_.samplers.size());
         for (const VirtualInstruction& instruction : code.instructions) {
             if (instruction.sampler >= 0)
                 samplers[static_cast<std::size_t>(instruction.sampler)] = 1;
             for (const VirtualSource& source : instruction.sources)
-                if (source.kind == VirtualSource::Kind::Input)
-                    inputs[static_cast<std::size_t>(source.index)] = 1;
+                if (source.kind == VirtualSource::Kind::Input) inputs.insert(source.index);
         }
-        for (std::size_t i = 0; i < inputs.size(); ++i) {
-            if (inputs[i] == 0) continue;
+        for (const int index : inputs) {
             Declaration declaration;
             declaration.target.file = input_file();
-            declaration.target.index = static_cast<int>(i);
-            declaration.target.mask = static_cast<Mask>((1 << module_.inputs[i].type.width) - 1);
+            declaration.target.index = index;
+            const unsigned lanes = lanes_of_register(graph.inputs, index);
+            // t# are declared from .x on without a gap.
+            declaration.target.mask =
+                static_cast<Mask>(model_3() ? lanes : (1u << std::bit_width(lanes)) - 1);
             if (model_3()) {
                 declaration.usage = Usage::Texcoord;
-                declaration.usage_index = static_cast<int>(i);
+                declaration.usage_index = index;
             }
             result_.shader.declarations.push_back(declaration);
         }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "generator/ir/module.h"
+#include "generator/target/d3d9/generate/interpolants.h"
 #include "generator/target/d3d9/shader.h"
 
 namespace intaglio::d3d9 {
@@ -43,8 +44,9 @@ struct Node {
 };
 
 struct Graph {
-    std::vector<Node> nodes;       // operands may point anywhere; order() sorts
-    std::vector<Operand> outputs;  // of four components each: oC0, oC1 ...
+    std::vector<Node> nodes;               // operands may point anywhere; order() sorts
+    std::vector<Operand> outputs;          // of four components each: oC0, oC1 ...
+    std::vector<InterpolantPlace> inputs;  // where each of the module's inputs lies
 
     const Node& node(Lane lane) const { return nodes[static_cast<std::size_t>(lane.node)]; }
     Node& node(Lane lane) { return nodes[static_cast<std::size_t>(lane.node)]; }

@@ -468,6 +468,7 @@ Result<Graph> lower(const ir::Module& module, Profile profile, std::vector<std::
     if (!graph) return graph;
     std::sort(notes.begin(), notes.end());
     notes.erase(std::unique(notes.begin(), notes.end()), notes.end());
+    graph->inputs = interpolant_places(module, profile);
     simplify(*graph);
     return graph;
 }

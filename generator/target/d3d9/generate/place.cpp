@@ -210,13 +210,17 @@ class Placement {
                  is_texture_read(n.op));
     }
 
+    const InterpolantPlace& place_of(const Node& input) const {
+        return graph_.inputs[static_cast<std::size_t>(input.slot)];
+    }
     Location locate(Lane lane) {
         const Node& n = node(lane.node);
         if (n.kind == Node::Kind::Uniform)
             return {VirtualSource::Kind::Uniform,
                     uniforms_[static_cast<std::size_t>(n.slot)] + n.element, lane.component};
         if (n.kind == Node::Kind::Input)
-            return {VirtualSource::Kind::Input, n.slot, lane.component};
+            return {VirtualSource::Kind::Input, place_of(n).index,
+                    place_of(n).lanes[static_cast<std::size_t>(lane.component)]};
         if (n.kind == Node::Kind::Constant) return {VirtualSource::Kind::Constant, lane.node, 0};
         const Home& h = home(lane.node);
         return {VirtualSource::Kind::Temp, h.target,
@@ -355,26 +359,24 @@ class Placement {
             const auto [cached, added] = register_copies_.try_emplace(key, 0);
             if (added) {
                 cached->second = new_register();
-                lanes(cached->second) = lanes_of_register(source);
+                lanes(cached->second) = lanes_of_source(source);
                 VirtualSource whole;
                 whole.kind = source.kind;
                 whole.index = source.index;
-                move(cached->second, lanes_of_register(source), whole);
+                move(cached->second, lanes_of_source(source), whole);
             }
             source.kind = VirtualSource::Kind::Temp;
             source.index = cached->second;
         }
         source.negate = negate;
     }
-    Mask lanes_of_register(const VirtualSource& source) {
-        for (const Node& n : graph_.nodes) {
-            if (source.kind == VirtualSource::Kind::Input && n.kind == Node::Kind::Input &&
-                n.slot == source.index)
-                return static_cast<Mask>((1 << n.width) - 1);
-            if (source.kind == VirtualSource::Kind::Uniform && n.kind == Node::Kind::Uniform &&
+    Mask lanes_of_source(const VirtualSource& source) {
+        if (source.kind == VirtualSource::Kind::Input)
+            return lanes_of_register(graph_.inputs, source.index);
+        for (const Node& n : graph_.nodes)
+            if (n.kind == Node::Kind::Uniform &&
                 uniforms_[static_cast<std::size_t>(n.slot)] + n.element == source.index)
                 return static_cast<Mask>((1 << n.width) - 1);
-        }
         return full_mask;
     }
 

@@ -1,0 +1,26 @@
+// What passes from the vertex to the pixel stage, and in which components of which register: both
+// stages ask here, so that they agree.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "generator/ir/module.h"
+#include "generator/target/d3d9/shader.h"
+
+namespace intaglio::d3d9 {
+
+struct InterpolantPlace {
+    int index = 0;                         // t#, or v# and its texcoord usage in model 3
+    int width = 4;                         // components of the value
+    std::array<int, 4> lanes{0, 1, 2, 3};  // register component of each of them
+    friend bool operator==(const InterpolantPlace&, const InterpolantPlace&) = default;
+};
+
+// For each input of the optimised pixel module its place.  No two inputs share a component.
+std::vector<InterpolantPlace> interpolant_places(const ir::Module& pixel, Profile profile);
+
+// The components of register `index` that these places cover.
+Mask lanes_of_register(const std::vector<InterpolantPlace>& places, int index);
+
+}  // namespace intaglio::d3d9
