@@ -5,7 +5,19 @@ namespace intaglio::dsl {
 
 float1 Relief::height_at_level(float2 uv, float1 mip_level, Place place) const {
     const float4 texel = map.sample_level(uv, mip_level, place);
-    return in_alpha ? texel.w() : texel.x();
+    return in_section(in_alpha ? texel.w() : texel.x());
+}
+
+// Section k of n runs from height 1 - k / n down to 1 - (k + 1) / n.
+float1 Relief::in_section(float1 whole) const {
+    if (sections == 1) return whole;
+    return whole * static_cast<float>(sections) - static_cast<float>(sections - 1 - section);
+}
+
+float1 Relief::in_whole(float1 in_section) const {
+    if (sections == 1) return in_section;
+    const float share = 1.0f / static_cast<float>(sections);
+    return in_section * share + static_cast<float>(sections - 1 - section) * share;
 }
 
 float2 Ray::reach_of(float1 scale, float3 view) {

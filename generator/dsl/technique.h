@@ -7,6 +7,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "generator/dsl/control.h"
@@ -31,6 +32,12 @@ class Technique : public KnobOwner {
 };
 
 // The height field under the polygon and how it is read.
+//
+// A search may be run in `sections` passes (passes.h): each sees one slab of the relief as if it
+// were a whole one, its own ray running from 1 at the slab's top to 0 at its floor.  Heights are
+// then stretched and may lie outside [0, 1]; scale is the slab's depth.  A search that reads
+// heights elsewhere than through height() maps them by in_section(); what it has stored per unit of
+// height (the ratio of a cone) it divides by `sections`.
 struct Relief {
     sampler2D map;
     bool in_alpha;    // heights in the map's alpha channel (a combined normal and height map), else
@@ -39,17 +46,27 @@ struct Relief {
     float2 map_size;  // texels
     float1
         level;  // mip level of every height read: fixed, so that reads in loops need no derivatives
+    int section = 0, sections = 1;  // the slab that is searched, 0 the top one, and how many
 
-    // Height in [0, 1] at a texture coordinate.
+    // Height at a texture coordinate: in [0, 1] where there is one section.
     float1 height(float2 uv, Place place = Place::here()) const {
         return height_at_level(uv, level, place);
     }
     float1 height_at_level(float2 uv, float1 mip_level, Place place = Place::here()) const;
+    // A height of the whole relief as the section sees it, and back.
+    float1 in_section(float1 whole) const;
+    float1 in_whole(float1 in_section) const;
 };
 
 struct Hit {
     float2 uv;      // displaced texture coordinate
-    float1 height;  // of the relief there, in [0, 1]
+    float1 height;  // of the relief there, as the relief's section sees it
+    // Whether the ray met the relief before it ended.  Empty: the search cannot say (it looks its
+    // answer up, it does not follow the ray), and is refused in sections.
+    std::optional<bool1> found = {};
+    // The relief's height where the ray ends, looked at only where nothing was found; empty: height
+    // is that.
+    std::optional<float1> exit_height = {};
 };
 
 // The view ray through the relief: at t in [0, 1] its height is 1 - t.
@@ -57,6 +74,9 @@ struct Ray {
     float2 uv;     // where it enters, at t = 0
     float3 view;   // unit vector to the eye
     float2 reach;  // how far it travels in texture space from top to bottom
+    // The relief's height where the ray enters, where an earlier section has read it: a search may
+    // spare its own read, or start its profile there.
+    std::optional<float1> entry_height = {};
 
     // Below this V.z the ray is as flat as it gets: 89.94 degrees.  Keeps V.xy / V.z finite.
     static constexpr float least_z = 1.0f / 1024.0f;
@@ -83,7 +103,8 @@ struct Fragment {
     float1 visibility;  // of the light: 0 in shadow, 1 lit
 };
 
-// Where does the view ray meet the relief first?
+// Where does the view ray meet the relief first?  find() may be given one section of the relief and
+// of the ray, and says by Hit::found whether the next section is still to be searched.
 class Search : public Technique {
   public:
     virtual Hit find(const Relief& relief, const Ray& ray) const = 0;

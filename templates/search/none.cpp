@@ -9,7 +9,7 @@ using namespace dsl;
 
 class None : public Search {
   public:
-    Hit find(const Relief&, const Ray& ray) const override { return {ray.uv, 1.0f}; }
+    Hit find(const Relief&, const Ray& ray) const override { return {ray.uv, 1.0f, bool1(true)}; }
 };
 
 }  // namespace

@@ -24,7 +24,8 @@ class ParallaxOcclusion : public Search {
         // How far the relief rises above the ray at t; below 0 the ray is still outside.
         const auto gap = [&](float1 t) { return relief.height(ray.at(t)) - (1 - t); };
 
-        var<float1> t{"t", step}, below{"below", gap(step)}, above{"above", below - step};
+        var<float1> t{"t", step}, below{"below", gap(step)};
+        var<float1> above{"above", ray.entry_height ? *ray.entry_height - 1.0f : below - step};
         {
             Step marching("march",
                           "Walk down the ray until a sample of the height profile rises above it.");
@@ -37,7 +38,8 @@ class ParallaxOcclusion : public Search {
         }
         Step refining("refine", "Intersect the ray with the last segment of the profile.");
         const float1 hit = let("hit", t - step * ratio(below, below - above));
-        return {let("displaced", ray.at(hit)), 1 - hit};
+        // Where nothing was found the last gap is the relief's height: there the ray is at 0.
+        return {let("displaced", ray.at(hit)), 1 - hit, below >= 0.0f, below};
     }
 
     void schedule(Schedule& s) const override {

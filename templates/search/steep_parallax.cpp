@@ -42,7 +42,7 @@ class SteepParallax : public Search {
         }
         // The height is the relief's, not the ray's, which is up to a step below it: shadows start
         // there.
-        return {let("displaced", ray.at(t)), height};
+        return {let("displaced", ray.at(t)), height, height >= 1 - t};
     }
 
     Status check() const override {
