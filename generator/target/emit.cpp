@@ -1,7 +1,8 @@
-// From a recorded program to an artifact: verify, optimise, legalise, print.
+// From a recorded program to artifacts: verify, optimise, legalise, print; or verify and generate.
 #include <fmt/format.h>
 
 #include "generator/ir/verify.h"
+#include "generator/passes/count_texture_reads.h"
 #include "generator/passes/pipeline.h"
 #include "generator/target/target.h"
 
@@ -44,20 +45,27 @@ Diagnostic derived(const Target& target) {
 
 }  // namespace
 
-Result<Artifact> emit(const ir::Program& program, ir::Stage stage, const Target& target,
-                      const EmitOptions& options) {
+Result<Emitted> emit(const ir::Program& program, const Target& target, const EmitOptions& options) {
     if (!target.derived_from.empty()) return derived(target);
     for (const ir::Module* module : {&program.vertex, &program.pixel})
         if (Status status = ir::verify(*module); !status) return status.error();
+    if (target.generate != nullptr) return target.generate(program, target, options);
     ir::Program legal = program;
+    if (options.count_reads) passes::count_texture_reads(legal.pixel);
     Result<Notes> notes = passes::optimize_program(legal, pipeline_options(target, options));
     if (!notes) return notes.error();
     for (ir::Module* module : {&legal.vertex, &legal.pixel})
         if (Status status = legalize(*module, target, options, *notes); !status)
             return status.error();
-    Result<Artifact> artifact = target.print(legal, stage);
-    if (artifact) artifact->notes.insert(artifact->notes.begin(), notes->begin(), notes->end());
-    return artifact;
+    Emitted emitted;
+    for (auto [artifact, stage] : {std::pair{&emitted.vertex, ir::Stage::Vertex},
+                                   std::pair{&emitted.pixel, ir::Stage::Pixel}}) {
+        Result<Artifact> printed = target.print(legal, stage);
+        if (!printed) return printed.error();
+        *artifact = std::move(*printed);
+        artifact->notes.insert(artifact->notes.begin(), notes->begin(), notes->end());
+    }
+    return emitted;
 }
 
 Result<Artifact> emit_function(const ir::Program& program, const Target& target, Binding binding,

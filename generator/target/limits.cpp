@@ -60,6 +60,12 @@ Diagnostic target_limit(const ir::Module& module, const ir::Origin& origin, std:
                        known ? origin.line : 0);
 }
 
+bool is_refusal(const Diagnostic& error) {
+    constexpr std::string_view codes[] = {"target-limit", "d3d9-limit", "d3d9-level", "d3d9-op",
+                                          "d3d9-stage"};
+    return std::find(std::begin(codes), std::end(codes), error.code) != std::end(codes);
+}
+
 Status check_limits(ir::Module& module, const Target& target, Notes&) {
     const auto targets = std::count_if(
         module.outputs.begin(), module.outputs.end(),

@@ -1,6 +1,7 @@
 // What a back end is to the rest of the program: one row of a table, found by name.  A target is a
 // table of spellings, a list of legalising passes, and the two functions that print a module those
-// passes have made legal. A target never sees a technique or another target.
+// passes have made legal; or one function that does all of it by itself.  A target never sees a
+// technique or another target.
 #pragma once
 
 #include <functional>
@@ -18,13 +19,25 @@ namespace intaglio {
 // One sentence for each thing that whoever uses a text must know.
 using Notes = std::vector<std::string>;
 
+// What a device loads without another compiler.
+struct Bytecode {
+    std::string bytes;
+    std::string extension;  // ".pso"; with the dot
+};
+
 // Text ready to be written to a file, or to be given to a compiler.
 struct Artifact {
-    std::string text;   // ends in a line break
+    std::string text;   // ends in a line break; empty: the target has no such stage
     std::string entry;  // entry point, or the function's name
     ir::Stage stage = ir::Stage::Pixel;
     std::string extension;  // ".vert", ".frag", ".vert.hlsl", ...; with the dot
     Notes notes;
+    Bytecode bytecode = {};  // the same in bytes; empty: the text is all there is
+};
+
+// Both stages of a draw.
+struct Emitted {
+    Artifact vertex, pixel;
 };
 
 // How a function gets what is uniform: as further parameters after its own, or as globals above it.
@@ -56,6 +69,14 @@ struct LegalizingPass {
     Status (*run)(ir::Module& module, const Target& target, Notes& notes);
 };
 
+struct EmitOptions {
+    // Called with "pixel: unroll_loops" and the module after each pass that ran, optimising and
+    // legalising alike.
+    std::function<void(std::string_view stage_and_pass, const ir::Module& module)> after_each_pass;
+    // Instrumented: a further colour target says how many textures each pixel read.
+    bool count_reads = false;
+};
+
 struct Target {
     std::string_view
         name;  // the folder of its page, its golden suffix and its name on the command line
@@ -66,6 +87,11 @@ struct Target {
     std::span<const LegalizingPass> legalize;
     Result<Artifact> (*print)(const ir::Program& program, ir::Stage stage) = nullptr;
     Result<Artifact> (*print_function)(const ir::Program& program, Binding binding) = nullptr;
+    // In place of legalize and print: a back end that chooses its own passes gets the program as
+    // recorded.
+    Result<Emitted> (*generate)(const ir::Program& recorded, const Target& target,
+                                const EmitOptions& options) = nullptr;
+    bool pixel_stage = true;  // false: a profile of vertex shaders alone
 };
 
 // Every target, in the order of the documentation.
@@ -73,18 +99,12 @@ std::span<const Target* const> all_targets();
 // The target of this name, or null.
 const Target* find_target(std::string_view name);
 
-struct EmitOptions {
-    // Called with "pixel: unroll_loops" and the module after each pass that ran, optimising and
-    // legalising alike.
-    std::function<void(std::string_view stage_and_pass, const ir::Module& module)> after_each_pass;
-};
-
-// Runs the passes over both stages (some move work between them), legalises the wanted one and
-// prints it. Errors: "target-derived" (the artifact is made by src/check from another target's),
-// whatever a pass refuses, and "target-limit" with the line of the DSL that asked for too much.
-// stage: Vertex or Pixel.
-Result<Artifact> emit(const ir::Program& program, ir::Stage stage, const Target& target,
-                      const EmitOptions& options = {});
+// Runs the passes over both stages (some move work between them), legalises and prints them, or
+// leaves all of it to the target's own generator.  Errors: "target-derived" (the artifact is made
+// by src/check from another target's), whatever a pass refuses, and the refusals of is_refusal with
+// the line of the DSL that asked for too much.
+Result<Emitted> emit(const ir::Program& program, const Target& target,
+                     const EmitOptions& options = {});
 
 // Prints the pixel module of a program, which is of Stage::Function, as one function to paste into
 // a shader: its inputs are the parameters, its one output the return value.  Errors as for emit,
@@ -94,5 +114,9 @@ Result<Artifact> emit_function(const ir::Program& program, const Target& target,
 
 // An error about what a target cannot do, pointing at the line that asked for it.
 Diagnostic target_limit(const ir::Module& module, const ir::Origin& origin, std::string message);
+
+// Whether the error says that the target cannot hold the program, which may be fine on another one:
+// "target-limit" and the generators' own codes.
+bool is_refusal(const Diagnostic& error);
 
 }  // namespace intaglio

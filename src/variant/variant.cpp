@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "generator/base/nearest.h"
-#include "generator/passes/count_texture_reads.h"
 #include "src/check/derive.h"
 #include "src/check/spirv.h"
 
@@ -74,14 +73,12 @@ Result<Variant> make_variant(const dsl::Catalogue& catalogue, const VariantReque
     if (!surface) return surface.error();
     Result<ir::Program> program = dsl::record_surface(*surface, record_options(request));
     if (!program) return program.error();
-    if (request.count_reads) passes::count_texture_reads(program->pixel);
-
-    const Target& printed = text_target(**target);
-    Result<Artifact> pixel = emit(*program, ir::Stage::Pixel, printed, options);
-    if (!pixel) return pixel.error();
-    Result<Artifact> vertex = emit(*program, ir::Stage::Vertex, printed, options);
-    if (!vertex) return vertex.error();
-    return Variant{request, *target, std::move(*program), std::move(*vertex), std::move(*pixel)};
+    EmitOptions emit_options = options;
+    emit_options.count_reads = request.count_reads;
+    Result<Emitted> emitted = emit(*program, text_target(**target), emit_options);
+    if (!emitted) return emitted.error();
+    return Variant{request, *target, std::move(*program), std::move(emitted->vertex),
+                   std::move(emitted->pixel)};
 }
 
 Result<Product> product_of(const Variant& variant, ir::Stage stage) {
@@ -148,7 +145,12 @@ Result<check::Program> link_variant(const Variant& variant) {
                         variant.target->name));
     Result<check::Program> program = check::link_to_spirv(source_of(variant, ir::Stage::Vertex),
                                                           source_of(variant, ir::Stage::Pixel));
-    if (!program || variant.target->name != "spirv") return program;
+    if (!program) return program;
+    for (const ir::Module* module : {&variant.program.vertex, &variant.program.pixel})
+        for (const ir::Sampler& sampler : module->samplers)
+            if (sampler.filter == ir::Sampler::Filter::Nearest)
+                program->nearest.insert(sampler.name);
+    if (variant.target->name != "spirv") return program;
     for (check::SpirvWords* words : {&program->vertex, &program->pixel}) {
         Result<check::SpirvWords> optimized = check::optimize_spirv(*words);
         if (!optimized) return optimized.error();

@@ -64,8 +64,8 @@ sampler map 2d
 
 TEST(ShaderModel2, RefusesWhatTheProfilesCannotSay) {
     const auto refusal = [](const ir::Program& program, std::string_view target) {
-        const auto artifact = emit(program, ir::Stage::Pixel, *find_target(target));
-        EXPECT_FALSE(artifact.ok()) << (artifact.ok() ? artifact->text : "");
+        const auto artifact = emit(program, *find_target(target));
+        EXPECT_FALSE(artifact.ok()) << (artifact.ok() ? artifact->pixel.text : "");
         return artifact.ok() ? "" : to_string(artifact.error());
     };
     EXPECT_EQ(
@@ -97,8 +97,8 @@ sampler map 2d
     EXPECT_EQ(refusal(program(33), "hlsl_2_0"),
               "error: p reads textures more than 32 times once its loops are unrolled, and "
               "hlsl_2_0 allows no more [target-limit]");
-    EXPECT_TRUE(emit(program(32), ir::Stage::Pixel, *find_target("hlsl_2_0")).ok());
-    EXPECT_TRUE(emit(program(33), ir::Stage::Pixel, *find_target("hlsl_2_b")).ok());
+    EXPECT_TRUE(emit(program(32), *find_target("hlsl_2_0")).ok());
+    EXPECT_TRUE(emit(program(33), *find_target("hlsl_2_b")).ok());
 }
 
 TEST(OldGlsl, AsksForTheExtensionsThatItsReadsNeed) {
@@ -121,7 +121,7 @@ TEST(OldGlsl, RefusesWhatTheLanguagesLack) {
     for (const auto& [program, target, sentence] :
          {std::tuple{reading("1.0", "3d"), "essl_100", "essl_100 has no volume textures"},
           std::tuple{two, "essl_100", "p has 2 colour outputs; essl_100 can write 1"}}) {
-        const auto artifact = emit(program, ir::Stage::Pixel, *find_target(target));
+        const auto artifact = emit(program, *find_target(target));
         ASSERT_FALSE(artifact.ok());
         EXPECT_EQ(artifact.error().message, sentence);
     }

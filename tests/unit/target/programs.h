@@ -76,12 +76,15 @@ inline check::Source source_of(const Artifact& artifact, check::Language languag
             artifact.text, artifact.entry, "test"};
 }
 
+inline const Artifact& stage_of(const Emitted& emitted, ir::Stage stage) {
+    return stage == ir::Stage::Vertex ? emitted.vertex : emitted.pixel;
+}
+
 // The text of a stage, or the failure of the test.
 inline Artifact emitted(const ir::Program& program, ir::Stage stage, std::string_view target) {
-    Result<Artifact> artifact = emit(program, stage, *find_target(target));
-    EXPECT_TRUE(artifact.ok()) << target << ": "
-                               << (artifact.ok() ? "" : to_string(artifact.error()));
-    return artifact.ok() ? std::move(*artifact) : Artifact{};
+    const Result<Emitted> both = emit(program, *find_target(target));
+    EXPECT_TRUE(both.ok()) << target << ": " << (both.ok() ? "" : to_string(both.error()));
+    return both.ok() ? stage_of(*both, stage) : Artifact{};
 }
 
 // The lines of main() or of an entry point, without the braces around them and their indentation.

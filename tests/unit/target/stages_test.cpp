@@ -248,12 +248,12 @@ file "templates/search/mine.cpp"
     %m float1 = min %a, %k @0:13
     return (%m)
 })"));
-    const auto artifact = emit(program, ir::Stage::Pixel, *find_target("hlsl_3_0"));
+    const auto artifact = emit(program, *find_target("hlsl_3_0"));
     ASSERT_FALSE(artifact.ok());
     EXPECT_EQ(to_string(artifact.error()),
               "templates/search/mine.cpp:12: error: this language has no way to write the "
               "constant infinity [target-limit]");
-    EXPECT_TRUE(emit(program, ir::Stage::Pixel, *find_target("hlsl_5_0")).ok());
+    EXPECT_TRUE(emit(program, *find_target("hlsl_5_0")).ok());
 
     ir::Program many = testing::program_of(
         testing::parsed("pixel \"p\"\noutput a float1 target\n{\n    %_0 float1 = const 1.0\n"
@@ -263,7 +263,7 @@ file "templates/search/mine.cpp"
         many.pixel.outputs.push_back({name, ir::float1, ir::Semantic::Target});
         many.pixel.body.body.back().operands.push_back(value);
     }
-    const auto five = emit(many, ir::Stage::Pixel, *find_target("essl_300"));
+    const auto five = emit(many, *find_target("essl_300"));
     ASSERT_FALSE(five.ok());
     EXPECT_EQ(five.error().message, "p has 5 colour outputs; essl_300 can write 4");
 }
@@ -282,18 +282,18 @@ output to float1 target
     }
     return (%end)
 })"));
-    const auto artifact = emit(program, ir::Stage::Pixel, *find_target("hlsl_3_0"));
+    const auto artifact = emit(program, *find_target("hlsl_3_0"));
     ASSERT_FALSE(artifact.ok());
     EXPECT_EQ(artifact.error().message,
               "the loop march runs up to 255 times; hlsl_3_0 can repeat one 254 times");
-    EXPECT_TRUE(emit(program, ir::Stage::Pixel, *find_target("hlsl_5_0")).ok());
+    EXPECT_TRUE(emit(program, *find_target("hlsl_5_0")).ok());
 }
 
 TEST(Targets, AreFoundByNameAndDerivedOnesSaySo) {
     for (const Target* target : all_targets()) EXPECT_EQ(find_target(target->name), target);
     EXPECT_EQ(find_target("glsl"), nullptr);
     for (std::string_view name : {"spirv", "msl"}) {
-        const auto artifact = emit(surface(), ir::Stage::Pixel, *find_target(name));
+        const auto artifact = emit(surface(), *find_target(name));
         ASSERT_FALSE(artifact.ok());
         EXPECT_EQ(artifact.error().code, "target-derived");
         EXPECT_EQ(find_target(name)->derived_from, "glsl_450");
@@ -309,7 +309,7 @@ TEST(Emit, TellsOfEveryPass) {
     std::vector<std::string> passes;
     const EmitOptions options{
         [&](std::string_view pass, const ir::Module&) { passes.emplace_back(pass); }};
-    ASSERT_TRUE(emit(surface(), ir::Stage::Pixel, *find_target("glsl_450"), options).ok());
+    ASSERT_TRUE(emit(surface(), *find_target("glsl_450"), options).ok());
     EXPECT_THAT(passes, ::testing::Contains("pixel: remove_dead_code"));
     EXPECT_THAT(passes, ::testing::Contains("vertex: check_limits"));
 }
