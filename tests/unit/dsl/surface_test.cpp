@@ -72,6 +72,17 @@ TEST(Surface, FunctionsTakeTheirArgumentsAsTheConventionsSay) {
     }
 }
 
+TEST(Surface, ASearchFunctionTakesTheReachThatVerticesGive) {
+    auto surface = make_surface(templates::all_techniques(), "parallax_occlusion");
+    ASSERT_TRUE(surface.ok());
+    ASSERT_TRUE(surface->set_knob("ray_per_vertex", "1").ok());
+    const auto program = record_function(*surface, FunctionPart::Search, {"glsl_450", {}, false});
+    ASSERT_TRUE(program.ok());
+    std::vector<std::string> names;
+    for (const ir::Declaration& input : program->pixel.inputs) names.push_back(input.name);
+    EXPECT_THAT(names, testing::ElementsAre("uv", "view", "reach"));
+}
+
 TEST(Surface, NamesOfKnobsAreUniqueOverAllTechniques) {
     std::set<std::string> names;
     const auto add = [&](const auto& table) {
