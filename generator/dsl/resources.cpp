@@ -21,40 +21,49 @@ int find_or_add(std::vector<Declaration>& declarations, Declaration declaration)
     if (!(*found == declaration))
         Recorder::current().fail(
             input_error("declared-twice",
-                        fmt::format("'{}' is declared twice, with different types or comments",
+                        fmt::format("'{}' is declared twice, with different types, filters or comments",
                                     declaration.name)));
     return static_cast<int>(found - declarations.begin());
 }
 
 }  // namespace
 
-sampler2D::sampler2D(std::string_view name, std::string_view comment)
-    : slot_(find_or_add(Recorder::current().module().samplers,
-                        ir::Sampler{std::string(name), 2, std::string(comment)})) {}
+template <int Dimension>
+Sampler<Dimension>::Sampler(std::string_view name, std::string_view comment, Filter filter)
+    : slot_(find_or_add(
+          Recorder::current().module().samplers,
+          ir::Sampler{std::string(name), Dimension, std::string(comment), filter})) {}
 
-float4 sampler2D::sample_level(float2 uv, float1 level, Place place) const {
+template <int Dimension>
+float4 Sampler<Dimension>::sample_level(Float<Dimension> at, float1 level, Place place) const {
     Recorder& recorder = Recorder::current();
     const float4 texel =
-        float4::of(recorder.builder().sample(ir::Op::SampleLevel, slot_, {uv.id(), level.id()}));
+        float4::of(recorder.builder().sample(ir::Op::SampleLevel, slot_, {at.id(), level.id()}));
     recorder.locate(place);
     return texel;
 }
 
-float4 sampler2D::sample_grad(float2 uv, float2 ddx_uv, float2 ddy_uv, Place place) const {
+template <int Dimension>
+float4 Sampler<Dimension>::sample_grad(Float<Dimension> at, Float<Dimension> ddx_at,
+                                       Float<Dimension> ddy_at, Place place) const {
     Recorder& recorder = Recorder::current();
     const float4 texel = float4::of(
-        recorder.builder().sample(ir::Op::SampleGrad, slot_, {uv.id(), ddx_uv.id(), ddy_uv.id()}));
+        recorder.builder().sample(ir::Op::SampleGrad, slot_, {at.id(), ddx_at.id(), ddy_at.id()}));
     recorder.locate(place);
     return texel;
 }
 
-float4 sampler2D::sample(float2 uv, Place place) const {
+template <int Dimension>
+float4 Sampler<Dimension>::sample(Float<Dimension> at, Place place) const {
     Recorder& recorder = Recorder::current();
     const float4 texel =
-        float4::of(recorder.builder().sample(ir::Op::SampleImplicit, slot_, {uv.id()}));
+        float4::of(recorder.builder().sample(ir::Op::SampleImplicit, slot_, {at.id()}));
     recorder.locate(place);
     return texel;
 }
+
+template class Sampler<2>;
+template class Sampler<3>;
 
 ir::ValueId record_uniform(std::string_view name, ir::Type type, int count, int element,
                            std::string_view comment) {

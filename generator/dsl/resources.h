@@ -8,21 +8,31 @@
 
 namespace intaglio::dsl {
 
-// A 2D texture with its sampler.  Reads inside loops and ifs name their level or their gradients.
-class sampler2D {
+// A texture with its sampler: 2D, or a volume.  Every axis repeats; the declaration says the
+// filter, and whoever draws obeys it.  Reads inside loops and ifs name their level or their
+// gradients.
+template <int Dimension>
+class Sampler {
   public:
-    sampler2D(std::string_view name, std::string_view comment);
+    using Filter = ir::Sampler::Filter;
+    // Nearest: one texel of one level, whatever the coordinate: exact reads of maps that must not
+    // be mixed.  A texel's own value lies at (index + 0.5) / size.
+    Sampler(std::string_view name, std::string_view comment, Filter filter = Filter::Linear);
 
     // The mip level is given; 0 is the finest.
-    float4 sample_level(float2 uv, float1 level, Place place = Place::here()) const;
-    // The level follows from how uv changes from pixel to pixel.
-    float4 sample_grad(float2 uv, float2 ddx_uv, float2 ddy_uv, Place place = Place::here()) const;
-    // The level follows from the derivatives of uv itself; outside loops and ifs only.
-    float4 sample(float2 uv, Place place = Place::here()) const;
+    float4 sample_level(Float<Dimension> at, float1 level, Place place = Place::here()) const;
+    // The level follows from how the coordinate changes from pixel to pixel.
+    float4 sample_grad(Float<Dimension> at, Float<Dimension> ddx_at, Float<Dimension> ddy_at,
+                       Place place = Place::here()) const;
+    // The level follows from the derivatives of the coordinate itself; outside loops and ifs only.
+    float4 sample(Float<Dimension> at, Place place = Place::here()) const;
 
   private:
     int slot_;
 };
+
+using sampler2D = Sampler<2>;
+using sampler3D = Sampler<3>;
 
 ir::ValueId record_uniform(std::string_view name, ir::Type type, int count, int element,
                            std::string_view comment);

@@ -31,6 +31,7 @@ struct Node {
     int slot = 0;
     int element = 0;
     int width = 1;  // of a leaf, a derivative, a coordinate
+    bool nearest = false;  // how a sampler reads
     int trip_count = 0;
     std::array<std::uint32_t, 2> blocks{};     // Loop: body; If: then, else
     std::uint32_t index_cell = 0;              // Loop
@@ -139,6 +140,8 @@ class Preparer {
             node.kernel = make_kernel(instruction, types.data(), node.width);
         } else if (is_sample(instruction.op)) {
             node.width = module_.type(instruction.operands[0]).width;
+            node.nearest = module_.samplers[static_cast<std::size_t>(node.slot)].filter ==
+                           Sampler::Filter::Nearest;
         } else if (instruction.op == Op::BreakIf) {
             node.transfers[0] = transfer(std::span(instruction.operands).subspan(1), targets.leave);
         } else if (instruction.op == Op::Yield) {
@@ -320,7 +323,13 @@ class Run {
                             ? Compute<T>::number(cells[node.operands[1]])
                             : level_of_gradients(*texture, coordinate(node, 1, cells),
                                                  coordinate(node, 2, cells));
-        write_sample(node, sample_level(*texture, coordinate(node, 0, cells), level), cells);
+        write_sample(node, read(node, *texture, level, cells), cells);
+    }
+
+    std::array<T, 4> read(const Node& node, const Texture& texture, T level,
+                          const Bits* cells) const {
+        const std::array<T, 3> at = coordinate(node, 0, cells);
+        return node.nearest ? sample_nearest(texture, at, level) : sample_level(texture, at, level);
     }
 
     const Texture* texture_of(const Node& node) const {
@@ -362,8 +371,7 @@ class Run {
         for (lane_ = 0; lane_ < lane_count_; ++lane_) {
             std::array<T, 4> texel{};
             if (texture != nullptr)
-                texel = sample_level(*texture, coordinate(node, 0, lane(lane_)),
-                                     level_of_gradients(*texture, dx, dy));
+                texel = read(node, *texture, level_of_gradients(*texture, dx, dy), lane(lane_));
             write_sample(node, texel, lane(lane_));
         }
     }

@@ -116,10 +116,16 @@ struct Uniform {
     friend bool operator==(const Uniform&, const Uniform&) = default;
 };
 
+// A texture with the way it is read: its declaration, and nothing else, says the filter.  Every
+// axis repeats.  Linear: between texels, and between levels where there are several.  Nearest: one
+// texel of one level, for maps whose values must not be mixed.
 struct Sampler {
+    enum class Filter : std::uint8_t { Linear, Nearest };
+
     std::string name;
-    int dimension = 2;  // 2 or 3
+    int dimension = 2;  // 2, or 3: a volume
     std::string comment;
+    Filter filter = Filter::Linear;
     friend bool operator==(const Sampler&, const Sampler&) = default;
 };
 

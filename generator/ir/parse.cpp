@@ -202,6 +202,7 @@ class Parser {
         if (!number) return wrong("a dimension, 2d or 3d");
         take();
         sampler.dimension = *number;
+        if (accept_word("nearest")) sampler.filter = Sampler::Filter::Nearest;
         optional_string(sampler.comment);
         return true;
     }

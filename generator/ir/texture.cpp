@@ -24,7 +24,7 @@ int wrapped(int index, int size, Texture::Wrap wrap) {
 }
 
 template <typename T>
-Tap<T> tap(const Texture& texture, T coordinate, int size) {
+Tap<T> tap(const Texture& texture, Texture::Filter filter, T coordinate, int size) {
     // Repeating takes the fraction first, so that far from the origin no precision goes to the
     // multiplication.
     T scaled =
@@ -32,7 +32,7 @@ Tap<T> tap(const Texture& texture, T coordinate, int size) {
     scaled *= static_cast<T>(size);
     if (std::isnan(scaled)) scaled = 0;
     scaled = std::clamp(scaled, T(-1), static_cast<T>(size) + T(1));
-    if (texture.filter == Texture::Filter::Nearest) {
+    if (filter == Texture::Filter::Nearest) {
         const int index = wrapped(static_cast<int>(std::floor(scaled)), size, texture.wrap);
         return {index, index, T(0)};
     }
@@ -53,15 +53,15 @@ std::array<T, 4> mix(const std::array<T, 4>& a, const std::array<T, 4>& b, T wei
 }
 
 template <typename T>
-std::array<T, 4> sample_one_level(const Texture& texture, const std::array<T, 3>& coordinate,
-                                  std::size_t level) {
+std::array<T, 4> sample_one_level(const Texture& texture, Texture::Filter filter,
+                                  const std::array<T, 3>& coordinate, std::size_t level) {
     const int width = level_size(texture.width, level);
     const int height = level_size(texture.height, level);
     const int depth = level_size(texture.depth, level);
     const std::vector<float>& texels = texture.levels[level];
-    const Tap<T> x = tap(texture, coordinate[0], width);
-    const Tap<T> y = tap(texture, coordinate[1], height);
-    const Tap<T> z = texture.depth > 1 ? tap(texture, coordinate[2], depth) : Tap<T>{};
+    const Tap<T> x = tap(texture, filter, coordinate[0], width);
+    const Tap<T> y = tap(texture, filter, coordinate[1], height);
+    const Tap<T> z = texture.depth > 1 ? tap(texture, filter, coordinate[2], depth) : Tap<T>{};
     const auto texel = [&](int column, int row, int slice) {
         const auto index = ((static_cast<std::size_t>(slice) * static_cast<std::size_t>(height) +
                              static_cast<std::size_t>(row)) *
@@ -86,6 +86,19 @@ std::array<T, 4> sample_one_level(const Texture& texture, const std::array<T, 3>
     return z.weight == 0 ? front : mix(front, slice(z.second), z.weight);
 }
 
+// A level within the chain; NaN is 0.
+template <typename T>
+T clamped_level(const Texture& texture, T level) {
+    const T last = static_cast<T>(texture.levels.size() - 1);
+    return std::isnan(level) ? T(0) : std::clamp(level, T(0), last);
+}
+
+template <typename T>
+std::size_t nearest_level(const Texture& texture, T level) {
+    const T rounded = std::ceil(clamped_level(texture, level) + T(0.5)) - T(1);
+    return static_cast<std::size_t>(clamped_level(texture, rounded));
+}
+
 }  // namespace
 
 bool Texture::is_complete() const {
@@ -102,17 +115,24 @@ bool Texture::is_complete() const {
 template <typename T>
 std::array<T, 4> sample_level(const Texture& texture, const std::array<T, 3>& coordinate, T level) {
     if (texture.levels.empty()) return {};
-    const T last = static_cast<T>(texture.levels.size() - 1);
-    const T clamped = std::isnan(level) ? T(0) : std::clamp(level, T(0), last);
-    if (texture.mip_filter == Texture::Filter::Nearest) {
-        const T nearest = std::min(std::max(std::ceil(clamped + T(0.5)) - T(1), T(0)), last);
-        return sample_one_level(texture, coordinate, static_cast<std::size_t>(nearest));
-    }
+    if (texture.mip_filter == Texture::Filter::Nearest)
+        return sample_one_level(texture, texture.filter, coordinate,
+                                nearest_level(texture, level));
+    const T clamped = clamped_level(texture, level);
     const T below = std::floor(clamped);
     const auto index = static_cast<std::size_t>(below);
-    const auto fine = sample_one_level(texture, coordinate, index);
+    const auto fine = sample_one_level(texture, texture.filter, coordinate, index);
     if (clamped == below) return fine;
-    return mix(fine, sample_one_level(texture, coordinate, index + 1), clamped - below);
+    return mix(fine, sample_one_level(texture, texture.filter, coordinate, index + 1),
+               clamped - below);
+}
+
+template <typename T>
+std::array<T, 4> sample_nearest(const Texture& texture, const std::array<T, 3>& coordinate,
+                                T level) {
+    if (texture.levels.empty()) return {};
+    return sample_one_level(texture, Texture::Filter::Nearest, coordinate,
+                            nearest_level(texture, level));
 }
 
 template <typename T>
@@ -132,6 +152,8 @@ T level_of_gradients(const Texture& texture, const std::array<T, 3>& dx,
 
 template std::array<float, 4> sample_level(const Texture&, const std::array<float, 3>&, float);
 template std::array<double, 4> sample_level(const Texture&, const std::array<double, 3>&, double);
+template std::array<float, 4> sample_nearest(const Texture&, const std::array<float, 3>&, float);
+template std::array<double, 4> sample_nearest(const Texture&, const std::array<double, 3>&, double);
 template float level_of_gradients(const Texture&, const std::array<float, 3>&,
                                   const std::array<float, 3>&);
 template double level_of_gradients(const Texture&, const std::array<double, 3>&,

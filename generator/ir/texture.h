@@ -36,6 +36,11 @@ struct Texture {
 template <typename T>
 std::array<T, 4> sample_level(const Texture& texture, const std::array<T, 3>& coordinate, T level);
 
+// The same, but the nearest texel of the nearest level, whatever filters the texture has.
+template <typename T>
+std::array<T, 4> sample_nearest(const Texture& texture, const std::array<T, 3>& coordinate,
+                                T level);
+
 // The level that two gradients (d uvw / dx and dy) ask for: log2 of the longer one in texels of
 // level 0; not clamped.
 template <typename T>

@@ -89,10 +89,13 @@ Status verify_declarations(const Module& module) {
             return broken(fmt::format("uniform '{}': it has {} elements, below 1", uniform.name,
                                       uniform.count));
     }
-    for (const Sampler& sampler : module.samplers)
+    for (const Sampler& sampler : module.samplers) {
+        if (sampler.filter > Sampler::Filter::Nearest)
+            return broken(fmt::format("sampler '{}': its filter does not exist", sampler.name));
         if (sampler.dimension != 2 && sampler.dimension != 3)
             return broken(fmt::format("sampler '{}': its dimension is 2 or 3, not {}", sampler.name,
                                       sampler.dimension));
+    }
     return Done{};
 }
 

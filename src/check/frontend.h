@@ -8,6 +8,7 @@
 // matrix swizzles crash glslang 12 in process.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ Result<SpirvWords> to_spirv(const Source& source);
 struct Program {
     SpirvWords vertex;
     SpirvWords pixel;
+    // Textures that are to be sampled nearest: SPIR-V does not say it, so whoever made the text does.
+    std::set<std::string> nearest{};
 };
 
 // Both stages of a draw, so that they agree in locations, bindings and uniform blocks.  GLSL

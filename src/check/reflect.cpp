@@ -102,8 +102,14 @@ class Reader {
                  .set = decoration(resource.id, spv::DecorationDescriptorSet),
                  .binding = decoration(resource.id, spv::DecorationBinding),
                  .kind = kind,
-                 .array_count = array_count(compiler_.get_type(resource.type_id))});
+                 .array_count = array_count(compiler_.get_type(resource.type_id)),
+                 .dimension = dimension_of(compiler_.get_type(resource.base_type_id))});
         }
+    }
+
+    static int dimension_of(const SPIRType& type) {
+        if (type.basetype == SPIRType::Sampler || type.image.dim == spv::Dim2D) return 2;
+        return type.image.dim == spv::Dim3D ? 3 : 0;
     }
 
     std::vector<Reflection::Interface> read_interface(

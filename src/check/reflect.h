@@ -43,6 +43,7 @@ struct Reflection {
         int binding = 0;
         ImageKind kind = ImageKind::Combined;
         int array_count = 1;
+        int dimension = 2;  // of a texture: 2, or 3 for a volume; 0: neither (cube, buffer, ...)
         bool operator==(const Image&) const = default;
     };
     struct Interface {

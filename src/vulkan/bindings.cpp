@@ -73,6 +73,17 @@ Result<Binding> bind_image(const Draw& draw, const StageView& stage,
                 is_sampler ? "and no given texture's name begins so" : "which was not given",
                 list_names(draw.textures)));
     }
+    const int given = draw.textures.at(binding.texture)->depth > 0 ? 3 : 2;
+    if (!is_sampler && image.dimension != given) {
+        return input_error(
+            "bad-texture",
+            fmt::format("the {} shader reads '{}' as {}, and the texture given is {}", stage.word,
+                        image.name,
+                        image.dimension == 3   ? "a volume"
+                        : image.dimension == 2 ? "a 2D texture"
+                                               : "something else than 2D texture or volume",
+                        given == 3 ? "a volume" : "2D"));
+    }
     return binding;
 }
 

@@ -58,12 +58,17 @@ const char* name_of(Texture::Format format) {
 
 // Whether the device can hold and filter the texture.
 Failure check_support(const DeviceState& device, const Texture& texture, const std::string& name) {
-    const auto limit = static_cast<int>(device.properties.limits.maxImageDimension2D);
-    if (texture.width > limit || texture.height > limit) {
+    const VkPhysicalDeviceLimits& limits = device.properties.limits;
+    const auto limit = static_cast<int>(texture.depth > 0 ? limits.maxImageDimension3D
+                                                          : limits.maxImageDimension2D);
+    if (texture.width > limit || texture.height > limit || texture.depth > limit) {
+        const std::string slices =
+            texture.depth > 0 ? fmt::format(" by {}", texture.depth) : std::string();
         return input_error(
-            "too-large",
-            fmt::format("texture '{}' is {} by {} texels, and {} takes at most {} a side", name,
-                        texture.width, texture.height, device.properties.deviceName, limit));
+            "too-large", fmt::format("texture '{}' is {} by {}{} texels, and {} takes at most {} a "
+                                     "side",
+                                     name, texture.width, texture.height, slices,
+                                     device.properties.deviceName, limit));
     }
     VkFormatProperties properties{};
     vkGetPhysicalDeviceFormatProperties(device.physical, format_of(texture.format), &properties);
@@ -144,12 +149,13 @@ Failure make_host_buffer(HostBuffer& into, const DeviceState& device, VkDeviceSi
 }
 
 Failure make_image(DeviceImage& into, const DeviceState& device, VkFormat format, int width,
-                   int height, std::uint32_t levels, VkImageUsageFlags usage) {
+                   int height, std::uint32_t levels, VkImageUsageFlags usage, int depth) {
     VkImageCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
-    info.imageType = VK_IMAGE_TYPE_2D;
+    info.imageType = depth > 0 ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D;
     info.format = format;
-    info.extent = {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), 1};
+    info.extent = {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
+                   static_cast<std::uint32_t>(std::max(1, depth))};
     info.mipLevels = levels;
     info.arrayLayers = 1;
     info.samples = VK_SAMPLE_COUNT_1_BIT;
@@ -167,14 +173,14 @@ Failure make_image(DeviceImage& into, const DeviceState& device, VkFormat format
                   "give an image its memory")) {
         return failure;
     }
-    const bool depth = (usage & VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT) != 0;
+    const bool depth_target = (usage & VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT) != 0;
     VkImageViewCreateInfo view{};
     view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
     view.image = into.image.get();
-    view.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    view.viewType = depth > 0 ? VK_IMAGE_VIEW_TYPE_3D : VK_IMAGE_VIEW_TYPE_2D;
     view.format = format;
-    view.subresourceRange = {depth ? VkImageAspectFlags{VK_IMAGE_ASPECT_DEPTH_BIT}
-                                   : VkImageAspectFlags{VK_IMAGE_ASPECT_COLOR_BIT},
+    view.subresourceRange = {depth_target ? VkImageAspectFlags{VK_IMAGE_ASPECT_DEPTH_BIT}
+                                          : VkImageAspectFlags{VK_IMAGE_ASPECT_COLOR_BIT},
                              0, levels, 0, 1};
     return make(into.view, device.device, vkCreateImageView, view, "create an image view");
 }
@@ -186,7 +192,8 @@ Failure upload_texture(DeviceImage& into, const DeviceState& device, const Textu
     const auto levels = static_cast<std::uint32_t>(texture.levels.size());
     if (auto failure =
             make_image(into, device, format_of(texture.format), texture.width, texture.height,
-                       levels, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT)) {
+                       levels, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                       texture.depth)) {
         return failure;
     }
     std::vector<std::byte> bytes;
@@ -196,7 +203,8 @@ Failure upload_texture(DeviceImage& into, const DeviceState& device, const Textu
         copy.bufferOffset = bytes.size();  // a multiple of the texel size, as required
         copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, l, 0, 1};
         copy.imageExtent = {static_cast<std::uint32_t>(std::max(1, texture.width >> l)),
-                            static_cast<std::uint32_t>(std::max(1, texture.height >> l)), 1};
+                            static_cast<std::uint32_t>(std::max(1, texture.height >> l)),
+                            static_cast<std::uint32_t>(std::max(1, texture.depth >> l))};
         copies.push_back(copy);
         const std::vector<std::byte> level = encode(texture.levels[l], texture.format);
         bytes.insert(bytes.end(), level.begin(), level.end());
@@ -216,14 +224,16 @@ Failure upload_texture(DeviceImage& into, const DeviceState& device, const Textu
     return submit_and_wait(device, commands.get());
 }
 
-Failure make_sampler(OwnedSampler& into, const DeviceState& device, const Texture& texture) {
-    const auto filter = [](Texture::Filter f) {
-        return f == Texture::Filter::Linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
+Failure make_sampler(OwnedSampler& into, const DeviceState& device, const Texture& texture,
+                     bool nearest) {
+    const auto is_linear = [&](Texture::Filter filter) {
+        return filter == Texture::Filter::Linear && !nearest;
     };
     VkSamplerCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
-    info.magFilter = info.minFilter = filter(texture.filter);
-    info.mipmapMode = texture.mip_filter == Texture::Filter::Linear
+    info.magFilter = info.minFilter =
+        is_linear(texture.filter) ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
+    info.mipmapMode = is_linear(texture.mip_filter)
                           ? VK_SAMPLER_MIPMAP_MODE_LINEAR
                           : VK_SAMPLER_MIPMAP_MODE_NEAREST;
     info.addressModeU = info.addressModeV = info.addressModeW =

@@ -80,14 +80,17 @@ struct DeviceImage {
     OwnedImage image;
     OwnedView view;
 };
-// A two-dimensional image with a view of all its levels, in device memory.
+// An image with a view of all its levels, in device memory: two-dimensional, or a volume if it has a
+// depth.
 Failure make_image(DeviceImage& into, const DeviceState& device, VkFormat format, int width,
-                   int height, std::uint32_t levels, VkImageUsageFlags usage);
+                   int height, std::uint32_t levels, VkImageUsageFlags usage, int depth = 0);
 
 // The texture on the device, ready for sampling in any shader stage.
 Failure upload_texture(DeviceImage& into, const DeviceState& device, const Texture& texture,
                        const std::string& name);
-Failure make_sampler(OwnedSampler& into, const DeviceState& device, const Texture& texture);
+// `nearest`: in texel and level, whatever the texture says.
+Failure make_sampler(OwnedSampler& into, const DeviceState& device, const Texture& texture,
+                     bool nearest);
 
 // A recorded command buffer, given back to the device's pool at the end.
 class Commands {

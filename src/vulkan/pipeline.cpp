@@ -197,7 +197,8 @@ Failure make_resources(Resources& into, const DeviceState& device, const Draw& d
                                                   binding.texture)) {
                     return failure;
                 }
-                if (auto failure = make_sampler(into.samplers[binding.texture], device, texture))
+                if (auto failure = make_sampler(into.samplers[binding.texture], device, texture,
+                                                draw.nearest.contains(binding.texture)))
                     return failure;
             }
             image = {into.samplers.at(binding.texture).get(),

@@ -10,6 +10,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,9 @@ struct Draw {
     // given texture whose name is the longest that begins the sampler's: `height_map` serves
     // height_mapSampler and height_map_sampler.
     std::map<std::string, const Texture*> textures;
+    // Names of textures that are sampled nearest, in texel and level, whatever they say themselves:
+    // what the shader's sampler declarations ask for.
+    std::set<std::string> nearest;
 
     int width = 0, height = 0;  // pixels; powers of two make the quad's varyings exact on lavapipe
     bool depth_test =

@@ -26,7 +26,7 @@ std::vector<std::byte> encode_unorm(const std::vector<float>& level) {
 }  // namespace
 
 Status validate(const Texture& texture, const std::string& name) {
-    if (texture.width < 1 || texture.height < 1 || texture.levels.empty()) {
+    if (texture.width < 1 || texture.height < 1 || texture.depth < 0 || texture.levels.empty()) {
         return input_error(
             "bad-texture",
             fmt::format("texture '{}' is {} by {} texels with {} levels, and needs at "
@@ -35,7 +35,8 @@ Status validate(const Texture& texture, const std::string& name) {
     }
     for (std::size_t l = 0; l < texture.levels.size(); ++l) {
         const int shift = static_cast<int>(std::min<std::size_t>(l, 30));
-        if (l > 0 && (texture.width >> (shift - 1)) <= 1 && (texture.height >> (shift - 1)) <= 1) {
+        if (l > 0 && (texture.width >> (shift - 1)) <= 1 && (texture.height >> (shift - 1)) <= 1 &&
+            (texture.depth >> (shift - 1)) <= 1) {
             return input_error(
                 "bad-texture",
                 fmt::format(
@@ -43,15 +44,19 @@ Status validate(const Texture& texture, const std::string& name) {
                     texture.levels.size(), l - 1));
         }
         const int width = std::max(1, texture.width >> shift),
-                  height = std::max(1, texture.height >> shift);
-        const std::size_t expected =
-            4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+                  height = std::max(1, texture.height >> shift),
+                  depth = std::max(1, texture.depth >> shift);
+        const std::size_t expected = 4 * static_cast<std::size_t>(width) *
+                                     static_cast<std::size_t>(height) *
+                                     static_cast<std::size_t>(depth);
         if (texture.levels[l].size() != expected) {
+            const std::string slices =
+                texture.depth > 0 ? fmt::format(" by {} slices", depth) : std::string();
             return input_error(
                 "bad-texture",
                 fmt::format(
-                    "level {} of texture '{}' is {} by {} texels and needs {} floats, not {}", l,
-                    name, width, height, expected, texture.levels[l].size()));
+                    "level {} of texture '{}' is {} by {} texels{} and needs {} floats, not {}", l,
+                    name, width, height, slices, expected, texture.levels[l].size()));
         }
     }
     return Done{};

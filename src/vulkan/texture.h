@@ -17,8 +17,9 @@ struct Texture {
     enum class Format { Rgba8Unorm, Rgba16Unorm, Rgba32Float };
 
     int width = 0, height = 0;
-    // Level l is max(1, width >> l) by max(1, height >> l) texels, row 0 at v = 0, four floats a
-    // texel.  The unorm formats store each float as the nearest of 255 or 65535 steps in [0, 1].
+    int depth = 0;  // 0: a 2D texture; else the slices of a volume, slice 0 at w = 0
+    // Level l is max(1, width >> l) by max(1, height >> l) texels (by max(1, depth >> l) slices, one
+    // after the other), row 0 at v = 0, four floats a texel.  The unorm formats store each float as the nearest of 255 or 65535 steps in [0, 1].
     std::vector<std::vector<float>> levels;
     Filter filter = Filter::Linear;      // within a level
     Filter mip_filter = Filter::Linear;  // between levels

@@ -150,6 +150,13 @@ Result<int> interpolant_location(const ir::Program& program, const ir::Declarati
                                    pixel_input.name));
 }
 
+std::string sampler_comment(const ir::Sampler& sampler) {
+    if (sampler.filter == ir::Sampler::Filter::Linear) return sampler.comment;
+    constexpr std::string_view filter = "sample it nearest, in texel and level";
+    return sampler.comment.empty() ? std::string(filter)
+                                   : fmt::format("{}; {}", sampler.comment, filter);
+}
+
 int sampler_slot(const ir::Program& program, const std::string& name) {
     int slot = 0;
     for (const ir::Sampler& sampler : program.pixel.samplers) {

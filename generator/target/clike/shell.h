@@ -66,6 +66,10 @@ void put_declaration(TextBuilder& out, std::string_view declaration, std::string
 // "stages-disagree".
 Result<int> interpolant_location(const ir::Program& program, const ir::Declaration& pixel_input);
 
+// What is printed beside a sampler's declaration: its comment, and the filter that its user must
+// set where that is not the usual linear one.
+std::string sampler_comment(const ir::Sampler& sampler);
+
 // Slots of a draw's samplers: those of the pixel stage in its order, then those that only the
 // vertex stage has.
 int sampler_slot(const ir::Program& program, const std::string& name);

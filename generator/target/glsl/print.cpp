@@ -180,7 +180,7 @@ void put_samplers(TextBuilder& out, const Dialect& dialect, const ir::Module& mo
         clike::put_declaration(out,
                                fill(dialect.sampler, first_sampler_binding + slots[i],
                                     sampler_type(module.samplers[i]), names[i]),
-                               module.samplers[i].comment);
+                               clike::sampler_comment(module.samplers[i]));
 }
 
 }  // namespace
@@ -252,9 +252,9 @@ Result<Artifact> print_function(const Dialect& dialect, const ir::Program& progr
         for (std::size_t i = 0; i < outer.samplers.size(); ++i) {
             parameters.push_back(
                 fmt::format("{} {}", sampler_type(function.samplers[i]), outer.samplers[i]));
-            if (!function.samplers[i].comment.empty())
-                clike::put_comment(
-                    out, fmt::format("{}: {}", outer.samplers[i], function.samplers[i].comment));
+            if (const std::string comment = clike::sampler_comment(function.samplers[i]);
+                !comment.empty())
+                clike::put_comment(out, fmt::format("{}: {}", outer.samplers[i], comment));
         }
         for (std::size_t i = 0; i < outer.uniforms.size(); ++i) {
             parameters.push_back(

@@ -54,7 +54,7 @@ void put_samplers(TextBuilder& out, const Dialect& dialect, const ir::Module& mo
     for (std::size_t i = 0; i < names.size(); ++i) {
         const ir::Sampler& sampler = module.samplers[i];
         clike::put_declaration(out, fill(dialect.texture, slots[i], names[i], sampler.dimension),
-                               sampler.comment);
+                               clike::sampler_comment(sampler));
         if (!dialect.sampler_state.empty())
             out.line(fill(dialect.sampler_state, slots[i], names[i]));
     }
@@ -246,8 +246,8 @@ Result<Artifact> print_function(const Dialect& dialect, const ir::Program& progr
             const ir::Sampler& sampler = function.samplers[i];
             parameters.push_back(
                 fill(dialect.texture_parameter, 0, outer.samplers[i], sampler.dimension));
-            if (!sampler.comment.empty())
-                clike::put_comment(out, fmt::format("{}: {}", outer.samplers[i], sampler.comment));
+            if (const std::string comment = clike::sampler_comment(sampler); !comment.empty())
+                clike::put_comment(out, fmt::format("{}: {}", outer.samplers[i], comment));
         }
         for (std::size_t i = 0; i < outer.uniforms.size(); ++i) {
             parameters.push_back(

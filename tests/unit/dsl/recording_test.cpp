@@ -69,6 +69,24 @@ TEST(Recording, ArithmeticMeansWhatItSays) {
     EXPECT_DOUBLE_EQ(functions(0.5, 2.25), 0.5 + 0.5 + 2 + 0.25 + 0.5 + 1.375 + 100);
 }
 
+TEST(Recording, SamplersSayWhatTheyAreAndHowTheyAreRead) {
+    const Recorded f([](float1 x, float1 y) {
+        const sampler3D volume("distance_map", "empty radius", sampler3D::Filter::Nearest);
+        const sampler2D map("height_map", "");
+        return volume.sample_level(float3(x, y, 0.5f), 0.0f).x() +
+               map.sample_level(float2(x, y), 0.0f).x();
+    });
+    ASSERT_TRUE(f.status().ok()) << to_string(f.status().error());
+    EXPECT_THAT(f.text(), HasSubstr("sampler distance_map 3d nearest \"empty radius\"\n"));
+    EXPECT_THAT(f.text(), HasSubstr("sampler height_map 2d\n"));
+    const Recorded twice([](float1 x, float1 y) {
+        const sampler2D one("cone_map", ""), other("cone_map", "", sampler2D::Filter::Nearest);
+        return one.sample_level(float2(x, y), 0.0f).x() + other.sample_level(float2(x, y), 0.0f).x();
+    });
+    ASSERT_FALSE(twice.status().ok());
+    EXPECT_EQ(twice.status().error().code, "declared-twice");
+}
+
 TEST(Recording, GuardsAreDefinedWhereTheBareFormIsNot) {
     const Recorded unit([](float1 x, float1 y) { return length(normalize(float2(x, y))); });
     EXPECT_NEAR(unit(3, 4), 1, 1e-6);

@@ -151,6 +151,21 @@ TEST(Texture, ReadsVolumes) {
         << "half of slice 0, half of slice 3";
 }
 
+TEST(Texture, NearestReadsGiveOneTexelOfOneLevel) {
+    Random random(9);
+    const Texture texture = counting(5, 3, 2);
+    for (int i = 0; i < 1000; ++i) {
+        const Coordinate at = {random.unit(), random.unit(), 0};
+        const double level = random.unit();
+        const int coarse = level > 0.5 ? 1 : 0, width = coarse ? 2 : 5, height = coarse ? 1 : 3;
+        const int texel = static_cast<int>(at[1] * height) * width + static_cast<int>(at[0] * width);
+        ASSERT_EQ(sample_nearest(texture, at, level)[0],
+                  texture.levels[static_cast<std::size_t>(coarse)]
+                                [static_cast<std::size_t>(texel) * 4])
+            << at[0] << ", " << at[1] << " level " << level << " seed 9";
+    }
+}
+
 TEST(Texture, IsFlatWhereItsTexelsAre) {
     Random random(8);
     Texture texture = counting(5, 3);
@@ -207,6 +222,23 @@ TEST(Texture, IsReadByTheSampleOps) {
     evaluation = evaluator.run(environment, Precision::Double);
     EXPECT_EQ(evaluation.outputs[2][0], 2000) << "the whole map a pixel is four texels: level 2";
     EXPECT_EQ(evaluation.texture_reads, 3) << "neighbours do not count";
+}
+
+TEST(Texture, IsReadAsTheSamplerSays) {
+    const auto module = parse(R"(pixel "s" sampler soft 3d sampler hard 3d nearest "as it is"
+        output a float4 target output b float4 target {
+        %at float3 = const (0.3, 0.9, 0.45)  %zero float1 = const 0.0
+        %a float4 = sample_level soft %at, %zero  %b float4 = sample_level hard %at, %zero
+        return (%a, %b) })",
+                              "s.ir");
+    ASSERT_TRUE(module) << to_string(module.error());
+    Texture texture;
+    texture.depth = 4;
+    texture.levels = {{0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3}};
+    const Environment environment{.samplers = {&texture, &texture}};
+    const Evaluation evaluation = Evaluator(*module).run(environment, Precision::Double);
+    EXPECT_NEAR(evaluation.outputs[0][0], 1.3, 1e-6) << "the constant 0.45 is a float";
+    EXPECT_EQ(evaluation.outputs[1][0], 1);
 }
 
 }  // namespace

@@ -192,6 +192,19 @@ TEST(Stages, FitEachOtherInEveryLanguage) {
     }
 }
 
+TEST(Stages, SayWhichTexturesAreSampledNearest) {
+    ir::Program program = surface();
+    program.pixel.samplers[0].filter = ir::Sampler::Filter::Nearest;
+    for (const char* target : {"glsl_450", "glsl_120", "essl_100", "hlsl_5_0", "hlsl_2_b"}) {
+        const bool one = find_target(target)->capabilities.colour_targets == 1;
+        if (one) program.pixel = surface_of_one_colour().pixel;
+        program.pixel.samplers[0].filter = ir::Sampler::Filter::Nearest;
+        EXPECT_THAT(testing::emitted(program, ir::Stage::Pixel, target).text,
+                    HasSubstr("// height in red; sample it nearest, in texel and level\n"))
+            << target;
+    }
+}
+
 TEST(Stages, BindByTheRulesOfTheTargetsPage) {
     const std::string vertex = testing::emitted(surface(), ir::Stage::Vertex, "glsl_450").text;
     EXPECT_THAT(vertex, HasSubstr("layout(set = 0, binding = 0, std140) uniform VertexUniforms {"));
