@@ -171,7 +171,8 @@ Status Recorder::finish(const std::vector<ir::ValueId>& outputs) {
             "unclosed-scope",
             "a recorded loop was left by a C++ break or return; use until() to leave it early"));
     for (const auto& [name, form] : overrides_)
-        if (std::find(loop_names_.begin(), loop_names_.end(), name) == loop_names_.end())
+        if (!absent_loops_ &&
+            std::find(loop_names_.begin(), loop_names_.end(), name) == loop_names_.end())
             fail(input_error("unknown-loop", unknown_name_sentence("loop", name, loop_names_)));
     if (error_) return *error_;
     builder_.finish(outputs);

@@ -67,6 +67,8 @@ class Recorder {
     void override_loop_form(const std::string& loop_name, ir::LoopForm form) {
         overrides_[loop_name] = form;
     }
+    // Whoever records one pass of several may give choices for loops of the others.
+    void allow_absent_loops() { absent_loops_ = true; }
 
     // Closes the module with its output values, and gives the first error of the recording, if any.
     Status finish(const std::vector<ir::ValueId>& outputs);
@@ -98,6 +100,7 @@ class Recorder {
     std::map<const Loop*, Directive> directives_;
     std::map<std::string, ir::LoopForm> overrides_;
     std::vector<std::string> loop_names_;
+    bool absent_loops_ = false;
     std::optional<Diagnostic> error_;
 };
 

@@ -63,8 +63,8 @@ TEST(Sections, ASearchFindsAFlatReliefInItsOwnSection) {
                     EXPECT_EQ(result[3] == 1, height >= 1 - (section + 1) / n);
                     const bool above = height >= 1 - section / n;
                     if (result[3] == 0 || above) continue;
-                    EXPECT_NEAR(result[2], height, 1e-6);
                     // A march ends within one of its steps, of which it has at least 8 here.
+                    EXPECT_NEAR(result[2], height, 1 / (8 * n) + 1e-6);
                     const double t = (0.25 - result[0]) / (0.75 * scale);
                     EXPECT_NEAR(t, 1 - height, 1 / (8 * n) + 1e-6);
                 }

@@ -1,0 +1,52 @@
+// The pieces of a surface's recording.
+#include "generator/dsl/surface_parts.h"
+
+namespace intaglio::dsl {
+
+float3 unit_input(std::string_view name, std::string_view unit_name) {
+    return let(unit_name, normalize(input<3>(name)));
+}
+
+float1 relief_scale() { return uniform<1>("scale", "depth of the relief in texture units"); }
+
+Relief make_relief(const Surface& surface) {
+    const bool packed = surface.relief->packed == 1;
+    const sampler2D map =
+        packed ? sampler2D("normal_map", "tangent-space normal in rgb, height in alpha")
+               : sampler2D("height_map", "height in red: 1 is the polygon, 0 the deepest");
+    const float2 map_size = uniform<2>("map_size", "size of the height map in texels");
+    return {map, packed, relief_scale(), map_size, float1(surface.relief->level.value())};
+}
+
+Ray make_ray(const Surface& surface, const Relief& relief, float2 uv, float3 view) {
+    if (surface.relief->ray_per_vertex == 0) return Ray::through(relief, uv, view);
+    return {uv, view, input<2>("reach")};
+}
+
+Status check_techniques(const Surface& surface) {
+    for (const Technique* technique : surface.techniques())
+        if (Status status = technique->check(); !status) return status;
+    return Done{};
+}
+
+bool apply_schedules(const Surface& surface, const RecordOptions& options, Recorder& recorder) {
+    Schedule schedule(options.target);
+    for (const Technique* technique : surface.techniques()) technique->schedule(schedule);
+    schedule.apply(recorder);
+    for (const auto& [loop, form] : options.loop_forms) recorder.override_loop_form(loop, form);
+    return schedule.moves_to_vertex() || options.per_vertex;
+}
+
+float3 shade(const Surface& surface, const Relief& relief, const Hit& hit, float2 uv, float3 view,
+             float3 light, float1 visibility) {
+    Step step("shading",
+              "Shade the point with its own normal and colour, read where the ray met the relief.");
+    const Footprint footprint{let("ddx_uv", ddx(uv)), let("ddy_uv", ddy(uv))};
+    const float3 normal = let("normal", surface.normal->normal(relief, hit, footprint));
+    const sampler2D colour_map("colour_map", "albedo");
+    const float3 albedo =
+        let("albedo", colour_map.sample_grad(hit.uv, footprint.ddx_uv, footprint.ddy_uv).xyz());
+    return surface.shading->shade({normal, view, light, albedo, visibility});
+}
+
+}  // namespace intaglio::dsl
