@@ -38,24 +38,6 @@ Failure allocate(OwnedMemory& into, const DeviceState& device, const VkMemoryReq
     return make(into, device.device, vkAllocateMemory, info, "allocate memory");
 }
 
-VkFormat format_of(Texture::Format format) {
-    switch (format) {
-        case Texture::Format::Rgba8Unorm: return VK_FORMAT_R8G8B8A8_UNORM;
-        case Texture::Format::Rgba16Unorm: return VK_FORMAT_R16G16B16A16_UNORM;
-        case Texture::Format::Rgba32Float: break;
-    }
-    return VK_FORMAT_R32G32B32A32_SFLOAT;
-}
-
-const char* name_of(Texture::Format format) {
-    switch (format) {
-        case Texture::Format::Rgba8Unorm: return "RGBA8";
-        case Texture::Format::Rgba16Unorm: return "RGBA16";
-        case Texture::Format::Rgba32Float: break;
-    }
-    return "RGBA32F";
-}
-
 // Whether the device can hold and filter the texture.
 Failure check_support(const DeviceState& device, const Texture& texture, const std::string& name) {
     const VkPhysicalDeviceLimits& limits = device.properties.limits;
@@ -117,6 +99,16 @@ void record_upload(VkCommandBuffer commands, VkBuffer from, VkImage to,
 }
 
 }  // namespace
+
+VkFormat format_of(Texture::Format format) {
+    switch (format) {
+        case Texture::Format::Rgba8Unorm: return VK_FORMAT_R8G8B8A8_UNORM;
+        case Texture::Format::Rgba16Unorm: return VK_FORMAT_R16G16B16A16_UNORM;
+        case Texture::Format::Rgba16Float: return VK_FORMAT_R16G16B16A16_SFLOAT;
+        case Texture::Format::Rgba32Float: break;
+    }
+    return VK_FORMAT_R32G32B32A32_SFLOAT;
+}
 
 Failure make_host_buffer(HostBuffer& into, const DeviceState& device, VkDeviceSize size,
                          VkBufferUsageFlags usage) {
@@ -190,10 +182,9 @@ Failure upload_texture(DeviceImage& into, const DeviceState& device, const Textu
     if (auto valid = validate(texture, name); !valid) return valid.error();
     if (auto failure = check_support(device, texture, name)) return failure;
     const auto levels = static_cast<std::uint32_t>(texture.levels.size());
-    if (auto failure =
-            make_image(into, device, format_of(texture.format), texture.width, texture.height,
-                       levels, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-                       texture.depth)) {
+    if (auto failure = make_image(
+            into, device, format_of(texture.format), texture.width, texture.height, levels,
+            VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, texture.depth)) {
         return failure;
     }
     std::vector<std::byte> bytes;
@@ -233,9 +224,8 @@ Failure make_sampler(OwnedSampler& into, const DeviceState& device, const Textur
     info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
     info.magFilter = info.minFilter =
         is_linear(texture.filter) ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
-    info.mipmapMode = is_linear(texture.mip_filter)
-                          ? VK_SAMPLER_MIPMAP_MODE_LINEAR
-                          : VK_SAMPLER_MIPMAP_MODE_NEAREST;
+    info.mipmapMode = is_linear(texture.mip_filter) ? VK_SAMPLER_MIPMAP_MODE_LINEAR
+                                                    : VK_SAMPLER_MIPMAP_MODE_NEAREST;
     info.addressModeU = info.addressModeV = info.addressModeW =
         texture.wrap == Texture::Wrap::Repeat ? VK_SAMPLER_ADDRESS_MODE_REPEAT
                                               : VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;

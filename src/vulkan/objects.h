@@ -80,10 +80,12 @@ struct DeviceImage {
     OwnedImage image;
     OwnedView view;
 };
-// An image with a view of all its levels, in device memory: two-dimensional, or a volume if it has a
-// depth.
+// An image with a view of all its levels, in device memory: two-dimensional, or a volume if it has
+// a depth.
 Failure make_image(DeviceImage& into, const DeviceState& device, VkFormat format, int width,
                    int height, std::uint32_t levels, VkImageUsageFlags usage, int depth = 0);
+
+VkFormat format_of(Texture::Format format);
 
 // The texture on the device, ready for sampling in any shader stage.
 Failure upload_texture(DeviceImage& into, const DeviceState& device, const Texture& texture,

@@ -12,17 +12,18 @@
 
 namespace intaglio::vulkan {
 
-// Colour targets in RGBA32F, an optional depth buffer, and host memory to read each colour target
-// from.  After the render pass the colour targets are ready to be copied from.
+// Colour targets in the draw's format, an optional depth buffer, and host memory to read each
+// colour target from.  After the render pass the colour targets are ready to be copied from.
 struct Targets {
     int width = 0, height = 0;
+    Texture::Format format = Texture::Format::Rgba32Float;
     std::vector<DeviceImage> colours;
     DeviceImage depth;
     OwnedRenderPass pass;
     OwnedFramebuffer framebuffer;
     std::vector<HostBuffer> readback;
 };
-// Errors: `bad-target` for a size below 1, `too-large`.
+// Errors: `bad-target` for a size below 1, `too-large`, `unsupported-format`.
 Failure make_targets(Targets& into, const DeviceState& device, const Draw& draw,
                      std::size_t colour_count);
 

@@ -53,9 +53,11 @@ struct Draw {
     std::array<float, 4> clear{};  // every target where no triangle is, and components that the
                                    // shader does not write
     int colour_targets = 0;        // 0: as many as the fragment stage's outputs say
+    // How the device stores every colour target; what is read back is what was stored.
+    Texture::Format target_format = Texture::Format::Rgba32Float;
 };
 
-// One target: RGBA float32, row by row, row 0 the top one (y = -1 in Vulkan's clip space).
+// One target as RGBA float32, row by row, row 0 the top one (y = -1 in Vulkan's clip space).
 struct Picture {
     int width = 0, height = 0;
     std::vector<std::array<float, 4>> pixels;

@@ -9,7 +9,6 @@
 namespace intaglio::vulkan {
 namespace {
 
-constexpr VkFormat colour_format = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
 
 Failure check_size(const DeviceState& device, const Draw& draw, std::size_t colour_count) {
@@ -34,6 +33,13 @@ Failure check_size(const DeviceState& device, const Draw& draw, std::size_t colo
             fmt::format("{} colour targets are too many: {} draws at most {}", colour_count,
                         device.properties.deviceName, limits.maxColorAttachments));
     }
+    VkFormatProperties format{};
+    vkGetPhysicalDeviceFormatProperties(device.physical, format_of(draw.target_format), &format);
+    if (!(format.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT)) {
+        return input_error("unsupported-format",
+                           fmt::format("{} cannot draw into {}", device.properties.deviceName,
+                                       name_of(draw.target_format)));
+    }
     return {};
 }
 
@@ -51,8 +57,8 @@ VkAttachmentDescription attachment(VkFormat format, VkAttachmentStoreOp store,
     return description;
 }
 
-Failure make_pass(OwnedRenderPass& into, const DeviceState& device, std::size_t colour_count,
-                  bool depth) {
+Failure make_pass(OwnedRenderPass& into, const DeviceState& device, VkFormat colour_format,
+                  std::size_t colour_count, bool depth) {
     std::vector<VkAttachmentDescription> attachments(
         colour_count, attachment(colour_format, VK_ATTACHMENT_STORE_OP_STORE,
                                  VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL));
@@ -107,6 +113,8 @@ Failure make_targets(Targets& into, const DeviceState& device, const Draw& draw,
     if (auto failure = check_size(device, draw, colour_count)) return failure;
     into.width = draw.width;
     into.height = draw.height;
+    into.format = draw.target_format;
+    const VkFormat colour_format = format_of(draw.target_format);
     std::vector<VkImageView> views;
     for (std::size_t i = 0; i < colour_count; ++i) {
         into.colours.emplace_back();
@@ -120,7 +128,7 @@ Failure make_targets(Targets& into, const DeviceState& device, const Draw& draw,
         const auto pixels =
             static_cast<VkDeviceSize>(draw.width) * static_cast<VkDeviceSize>(draw.height);
         if (auto failure = make_host_buffer(into.readback.back(), device,
-                                            pixels * sizeof(std::array<float, 4>),
+                                            pixels * bytes_per_texel(into.format),
                                             VK_BUFFER_USAGE_TRANSFER_DST_BIT)) {
             return failure;
         }
@@ -132,7 +140,8 @@ Failure make_targets(Targets& into, const DeviceState& device, const Draw& draw,
         }
         views.push_back(into.depth.view.get());
     }
-    if (auto failure = make_pass(into.pass, device, colour_count, draw.depth_test)) return failure;
+    if (auto failure = make_pass(into.pass, device, colour_format, colour_count, draw.depth_test))
+        return failure;
     VkFramebufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
     info.renderPass = into.pass.get();
@@ -148,10 +157,12 @@ Picture read_picture(const Targets& targets, std::size_t target) {
     Picture picture;
     picture.width = targets.width;
     picture.height = targets.height;
-    picture.pixels.resize(static_cast<std::size_t>(targets.width) *
-                          static_cast<std::size_t>(targets.height));
-    std::memcpy(picture.pixels.data(), targets.readback[target].mapped,
-                picture.pixels.size() * sizeof(picture.pixels[0]));
+    const std::size_t count =
+        static_cast<std::size_t>(targets.width) * static_cast<std::size_t>(targets.height);
+    const std::vector<float> numbers = decode(
+        {targets.readback[target].mapped, count * bytes_per_texel(targets.format)}, targets.format);
+    picture.pixels.resize(count);
+    std::memcpy(picture.pixels.data(), numbers.data(), count * sizeof(picture.pixels[0]));
     return picture;
 }
 

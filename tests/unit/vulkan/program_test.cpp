@@ -2,6 +2,7 @@
 // repetition.
 #include "src/vulkan/program.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "src/vulkan/camera.h"
@@ -49,6 +50,40 @@ TEST_F(ProgramTest, VaryingsOfTheQuadAreExactAtPowersOfTwo) {
             }
         }
         EXPECT_EQ(wrong, 0) << "of " << size * size << " pixels";
+    }
+}
+
+// What a target of few bits holds is within one step of what was written; a device may truncate to
+// half precision, and rounds unorm to the nearest.
+TEST_F(ProgramTest, TargetsStoreWhatTheirFormatHolds) {
+    const Stage fragment = glsl_fragment(R"(
+        layout(location = 0) in vec2 uv;
+        layout(location = 0) out vec4 color;
+        void main() { color = vec4(uv.x * 0.9 + 0.03, uv.y * uv.y, uv.x - uv.y, uv.x * 2.0); })");
+    constexpr int size = 64;
+    const auto exact = drawn(device(), quad_draw(fragment, size));
+    for (const Texture::Format format :
+         {Texture::Format::Rgba8Unorm, Texture::Format::Rgba16Unorm, Texture::Format::Rgba16Float,
+          Texture::Format::Rgba32Float}) {
+        Draw draw = quad_draw(fragment, size);
+        draw.target_format = format;
+        const auto stored = drawn(device(), draw);
+        ASSERT_EQ(stored.size(), 1u);
+        double worst = 0;
+        for (std::size_t pixel = 0; pixel < size * size; ++pixel)
+            for (std::size_t k = 0; k < 4; ++k) {
+                const double written = exact[0].pixels[pixel][k], held = stored[0].pixels[pixel][k];
+                const bool unorm =
+                    format == Texture::Format::Rgba8Unorm || format == Texture::Format::Rgba16Unorm;
+                const double wanted = unorm ? std::clamp(written, 0.0, 1.0) : written;
+                const double step = format == Texture::Format::Rgba8Unorm    ? 0.5001 / 255
+                                    : format == Texture::Format::Rgba16Unorm ? 0.5001 / 65535
+                                    : format == Texture::Format::Rgba16Float
+                                        ? std::max(std::ldexp(std::fabs(wanted), -10), 6e-8)
+                                        : 0;
+                worst = std::max(worst, std::fabs(held - wanted) - step);
+            }
+        EXPECT_LE(worst, 1e-7) << name_of(format);
     }
 }
 

@@ -54,5 +54,50 @@ TEST(Texture, EncodesToTheNearestStep) {
     EXPECT_THAT(values, testing::ElementsAre(1, 32768, 65535, 0));
 }
 
+TEST(Texture, EncodesHalvesToTheNearestEven) {
+    const float least = std::ldexp(1.0f, -24);  // the least denormal
+    const std::vector<std::pair<float, std::uint16_t>> cases = {
+        {0.0f, 0x0000},
+        {-0.0f, 0x8000},
+        {1.0f, 0x3c00},
+        {-2.0f, 0xc000},
+        {0.333251953125f, 0x3555},
+        {1 + std::ldexp(1.0f, -11), 0x3c00},  // a tie goes to the even one below
+        {1 + 3 * std::ldexp(1.0f, -11), 0x3c02},
+        {65504.0f, 0x7bff},
+        {65519.0f, 0x7bff},
+        {65520.0f, 0x7c00},  // infinity
+        {least, 0x0001},
+        {least / 2, 0x0000},
+        {least * 0.75f, 0x0001},
+        {least * 1023.5f, 0x0400},  // a tie carries into the least normal number
+        {-INFINITY, 0xfc00},
+    };
+    for (const auto& [value, half] : cases) {
+        const auto bytes = encode({value, 0, 0, 0}, Texture::Format::Rgba16Float);
+        std::uint16_t got = 0;
+        std::memcpy(&got, bytes.data(), sizeof got);
+        EXPECT_EQ(got, half) << value;
+    }
+    const auto nan = encode({std::nanf(""), 0, 0, 0}, Texture::Format::Rgba16Float);
+    EXPECT_TRUE(std::isnan(decode(nan, Texture::Format::Rgba16Float)[0]));
+}
+
+// Every step of every format of 16 bits or fewer survives decoding and encoding.
+TEST(Texture, DecodingIsUndoneByEncoding) {
+    for (const Texture::Format format : {Texture::Format::Rgba8Unorm, Texture::Format::Rgba16Unorm,
+                                         Texture::Format::Rgba16Float}) {
+        const std::size_t width = bytes_per_texel(format) / 4;
+        std::vector<std::byte> bytes;
+        for (std::uint32_t step = 0; step < (width == 1 ? 256u : 65536u); ++step) {
+            // NaNs lose their payload.
+            if (format == Texture::Format::Rgba16Float && (step & 0x7fff) > 0x7c00) continue;
+            for (std::size_t byte = 0; byte < width; ++byte)
+                bytes.push_back(static_cast<std::byte>(step >> (8 * byte)));
+        }
+        EXPECT_EQ(encode(decode(bytes, format), format), bytes) << name_of(format);
+    }
+}
+
 }  // namespace
 }  // namespace intaglio::vulkan
