@@ -46,8 +46,8 @@ struct TakenOver {
 
 TakenOver take_over(float2 uv) {
     Step step("take over", "What the pass before found at this pixel.");
-    const sampler2D map("displaced_map",
-                        "picture of the pass before, of this size; one level, nearest, clamped");
+    const sampler2D map("displaced_map", "picture of the pass before, of the same size",
+                        sampler2D::Filter::Nearest);
     // The vertex stage hands down clip space scaled to the picture; its w is divided out here,
     // because a quotient does not interpolate in perspective.
     const float3 place = input<3>("place");

@@ -36,6 +36,13 @@ dsl::RecordOptions record_options(const VariantRequest& request) {
     return {request.target, request.loop_forms, request.per_vertex};
 }
 
+Result<ir::Program> record_program(const dsl::Surface& surface, const VariantRequest& request) {
+    const int passes = dsl::pass_count(request.split);
+    if (passes == 1 && request.pass == 0)
+        return dsl::record_surface(surface, record_options(request));
+    return dsl::record_pass(surface, record_options(request), request.split, request.pass);
+}
+
 // A loop that a person wants kept is kept or refused; a technique's own schedule says what is best
 // where there are loops.
 Status check_loops(const VariantRequest& request, const Target& target) {
@@ -71,7 +78,7 @@ Result<Variant> make_variant(const dsl::Catalogue& catalogue, const VariantReque
     if (Status status = check_loops(request, **target); !status) return status.error();
     const Result<dsl::Surface> surface = surface_of(catalogue, request);
     if (!surface) return surface.error();
-    Result<ir::Program> program = dsl::record_surface(*surface, record_options(request));
+    Result<ir::Program> program = record_program(*surface, request);
     if (!program) return program.error();
     EmitOptions emit_options = options;
     emit_options.count_reads = request.count_reads;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "generator/dsl/catalogue.h"
+#include "generator/dsl/passes.h"
 #include "generator/target/target.h"
 #include "src/check/cost.h"
 #include "src/check/frontend.h"
@@ -24,6 +25,8 @@ struct VariantRequest {
     bool per_vertex = false;  // affine functions of interpolants move to the vertex stage
     bool count_reads =
         false;  // instrumented: a second colour target `reads` says how many textures a pixel read
+    dsl::Split split = {};  // see dsl::parse_split
+    int pass = 0;           // which pass of the split, from 1; 0 only where there is one
 };
 
 struct Variant {
