@@ -148,7 +148,7 @@ TEST_P(Generate, IsLegalAndComputesTheSurfaceOrRefuses) {
         SCOPED_TRACE(a_case.name());
         const auto program = record(a_case, GetParam());
         ASSERT_TRUE(program) << program.error().message;
-        const auto shader = generate(*program, ir::Stage::Pixel, GetParam());
+        const auto shader = generate_pixel(*program, GetParam());
         if (!shader) {
             EXPECT_THAT(shader.error().code, AnyOf("d3d9-limit", "d3d9-level"))
                 << shader.error().message;
@@ -170,8 +170,8 @@ TEST_P(Generate, IsDeterministic) {
     const Case a_case{"parallax_occlusion,output=displaced", {{"taps", "5"}}};
     const auto program = record(a_case, GetParam());
     ASSERT_TRUE(program);
-    const auto first = generate(*program, ir::Stage::Pixel, GetParam());
-    const auto second = generate(*program, ir::Stage::Pixel, GetParam());
+    const auto first = generate_pixel(*program, GetParam());
+    const auto second = generate_pixel(*program, GetParam());
     ASSERT_TRUE(first && second);
     EXPECT_EQ(*first, *second);
 }
@@ -179,7 +179,7 @@ TEST_P(Generate, IsDeterministic) {
 TEST(GenerateLimits, NamesLimitStepAndLine) {
     const auto program = record({"parallax_occlusion", {{"taps", "60"}}}, Profile::ps_2_0);
     ASSERT_TRUE(program);
-    const auto shader = generate(*program, ir::Stage::Pixel, Profile::ps_2_0);
+    const auto shader = generate_pixel(*program, Profile::ps_2_0);
     ASSERT_FALSE(shader);
     EXPECT_EQ(shader.error().code, "d3d9-limit");
     EXPECT_THAT(shader.error().message, HasSubstr("more than the 64 it has"));
@@ -188,10 +188,10 @@ TEST(GenerateLimits, NamesLimitStepAndLine) {
     EXPECT_THAT(shader.error().message, HasSubstr("try fewer taps"));
 }
 
-TEST(GenerateLimits, RefusesTheVertexStage) {
+TEST(GenerateLimits, RefusesAProfileOfTheOtherStage) {
     const auto program = record({"bump", {}}, Profile::ps_2_0);
     ASSERT_TRUE(program);
-    const auto shader = generate(*program, ir::Stage::Vertex, Profile::vs_2_0);
+    const auto shader = generate_pixel(*program, Profile::vs_2_0);
     ASSERT_FALSE(shader);
     EXPECT_EQ(shader.error().code, "d3d9-stage");
 }
@@ -201,7 +201,7 @@ TEST(GenerateLimits, RefusesTheVertexStage) {
 TEST(GenerateSize, StaysSmall) {
     const auto slots = [](const Case& a_case) {
         const auto program = record(a_case, Profile::ps_2_0);
-        const auto shader = generate(*program, ir::Stage::Pixel, Profile::ps_2_0);
+        const auto shader = generate_pixel(*program, Profile::ps_2_0);
         EXPECT_TRUE(shader) << (shader ? "" : shader.error().message);
         return shader ? slots_of(*shader) : Slots{1000, 1000};
     };

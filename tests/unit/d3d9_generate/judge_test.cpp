@@ -15,7 +15,7 @@ TEST(GenerateJudge, AcceptsEveryText) {
         for (const Case& a_case : all_cases()) {
             const auto program = record(a_case, profile);
             ASSERT_TRUE(program) << program.error().message;
-            const auto shader = generate(*program, ir::Stage::Pixel, profile);
+            const auto shader = generate_pixel(*program, profile);
             if (!shader) continue;
             texts.push_back(print(*shader));
             names.push_back(std::string(name_of(profile)) + ": " + a_case.name());

@@ -9,6 +9,18 @@
 #include "generator/target/d3d9/generate/code.h"
 
 namespace intaglio::d3d9 {
+
+Mask positions_read(const VirtualInstruction& instruction) {
+    switch (instruction.op) {
+        case Opcode::Dp3: return 7;
+        case Opcode::Dp4:
+        case Opcode::Texldl: return full_mask;
+        case Opcode::Texld:
+        case Opcode::Texldd: return 3;
+        default: return instruction.mask;
+    }
+}
+
 namespace {
 
 struct Interval {
@@ -52,7 +64,7 @@ class Allocator {
                 const VirtualSource& source = instruction.sources[s];
                 if (source.kind != VirtualSource::Kind::Temp) continue;
                 Lanes& lanes = intervals_[static_cast<std::size_t>(source.index)];
-                const Mask mask = read_mask(instruction);
+                const Mask mask = positions_read(instruction);
                 for (std::size_t k = 0; k < 4; ++k)
                     if ((mask >> k & 1) != 0)
                         lanes[source.swizzle[k]].end =
@@ -64,18 +76,6 @@ class Allocator {
                 if ((instruction.mask >> k & 1) != 0) lanes[k] = {2 * now + 1, 2 * now + 1};
         }
     }
-    // The positions that an instruction looks at.
-    static Mask read_mask(const VirtualInstruction& instruction) {
-        switch (instruction.op) {
-            case Opcode::Dp3: return 7;
-            case Opcode::Dp4:
-            case Opcode::Texldl: return full_mask;
-            case Opcode::Texld:
-            case Opcode::Texldd: return 3;
-            default: return instruction.output >= 0 ? full_mask : instruction.mask;
-        }
-    }
-
     void find_budgets() {
         std::fill(budget_.begin(), budget_.end(), limits_.dependent_level);
         for (std::size_t i = code_.instructions.size(); i-- > 0;) {

@@ -25,19 +25,27 @@ struct VirtualSource {
     int index = 0;  // virtual register, c#, t# or v#; of a constant, its definition once pooled
     Swizzle swizzle = identity_swizzle;
     bool negate = false;
-    Wanted wanted;  // Constant
+    bool absolute = false;  // before the sign
+    Wanted wanted;          // Constant
 };
 
 struct VirtualInstruction {
     Opcode op = Opcode::Mov;
     int target = -1;  // virtual register
-    int output = -1;  // or oC#
+    int output = -1;  // or number of the graph's output
     Mask mask = full_mask;
     bool saturate = false;
     int sampler = -1;
     std::vector<VirtualSource> sources;
     ir::Origin origin;
+    // Code with loops alone, see flow_code.h.
+    Comparison comparison = Comparison::None;     // break_comp
+    int repeats = 0;                              // rep
+    Swizzle sampler_swizzle = identity_swizzle;
 };
+
+// The positions of its operands that an instruction looks at.
+Mask positions_read(const VirtualInstruction& instruction);
 
 struct Code {
     std::vector<VirtualInstruction> instructions;
@@ -53,6 +61,10 @@ std::optional<Swizzle> find_swizzle(const std::array<int, 4>& lanes, const Limit
 // first c#.
 Code place(const Graph& graph, const std::vector<int>& order, const Limits& limits,
            const std::vector<int>& uniform_registers);
+
+// Outputs of vertex shaders take lanes, signs and any arithmetic: what a mov to an output alone reads
+// is written there instead, and the mov goes.
+void write_outputs_directly(Code& code);
 
 // Definitions for the constants that instructions want; sets the sources' index and swizzle.
 // Nothing if more than `limits.constants` would be needed; `first` is the first free c#.

@@ -21,4 +21,9 @@ struct Finished {
 Finished finish(const ir::Module& module, const Graph& graph, const std::vector<int>& order,
                 Profile profile);
 
+// The same for code whose virtual registers are r# already.  Of the graph only the places of inputs
+// are read; `uniforms` and `next` are those of assign_uniforms.
+Shader finish_flow(const ir::Module& module, const Graph& graph, const Code& code,
+                   const std::vector<int>& uniforms, int next, Profile profile);
+
 }  // namespace intaglio::d3d9

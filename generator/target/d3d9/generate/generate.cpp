@@ -1,29 +1,22 @@
-// Alternatives are tried from the IR on: each lowering of the searches, each packing, each order of
-// instructions; the first that gets registers, from the cheapest packing on, counts.
+// Alternatives are tried from the IR on: each lowering of the searches is packed and ordered, and
+// the smallest pixel shader decides what the vertex shader computes for it.
 #include "generator/target/d3d9/generate/generate.h"
 
-#include <algorithm>
-#include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "generator/passes/lower_first_hit.h"
 #include "generator/passes/pipeline.h"
 #include "generator/passes/rewrite.h"
+#include "generator/target/d3d9/generate/candidate.h"
 #include "generator/target/d3d9/generate/finish.h"
 #include "generator/target/d3d9/generate/lower.h"
 #include "generator/target/d3d9/generate/pack.h"
-#include "generator/target/d3d9/legality.h"
-#include "generator/target/d3d9/ops.h"
-#include "generator/target/d3d9/resources.h"
+#include "generator/target/d3d9/generate/vertex.h"
 
 namespace intaglio::d3d9 {
 namespace {
-
-// How many placements one packing may try: about a second's worth, fewer for long shaders.
-int evaluations_for(const Graph& graph) {
-    return static_cast<int>(20'000'000 / (graph.nodes.size() * graph.nodes.size() / 8 + 1000));
-}
 
 void forget_forms(ir::Region& region) {
     passes::for_each_instruction(region, [](ir::Instruction& instruction) {
@@ -49,156 +42,109 @@ Result<ir::Program> straighten(const ir::Program& program, passes::FirstHitForm 
     return result;
 }
 
-struct Candidate {
-    Shader shader;
-    std::vector<std::string> notes;
-    std::vector<Violation> violations;
-    std::optional<AllocationFailure> failure;
-    int failed_at = -1;
-    bool fits() const { return !failure && violations.empty(); }
+// A pixel stage, and the program that it is of: the vertex stage must compute what was hoisted.
+struct PixelStage {
+    Candidate candidate;
+    ir::Program program;
 };
 
-bool better(const Candidate& a, const Candidate& b) {
-    if (a.fits() != b.fits()) return a.fits();
-    const Slots x = slots_of(a.shader), y = slots_of(b.shader);
-    return std::pair(x.arithmetic, x.texture) < std::pair(y.arithmetic, y.texture);
-}
-
-Candidate try_orders(const ir::Module& module, const Graph& graph, Profile profile) {
-    std::optional<Candidate> best;
-    for (const Order order : all_orders) {
-        const Finished finished = finish(module, graph, order_of(graph, order), profile);
-        Candidate candidate;
-        candidate.shader = finished.shader;
-        candidate.failure = finished.failure;
-        candidate.failed_at = finished.failed_at;
-        if (!candidate.failure) candidate.violations = check(candidate.shader);
-        if (!best || better(candidate, *best)) best = std::move(candidate);
-    }
-    return std::move(*best);
-}
-
-// How many joins may be given up for registers.
-constexpr std::size_t most_given_up = 8;
-
-// Joining lengthens lives: what got no registers may fit with a few joins less.
-Candidate cheapest_fitting(const ir::Module& module, const std::vector<Graph>& packings,
-                           Profile profile) {
-    std::optional<Candidate> best;
-    const std::size_t last = packings.size() > most_given_up ? packings.size() - most_given_up : 0;
-    for (std::size_t i = packings.size(); i-- > last;) {
-        Candidate candidate = try_orders(module, packings[i], profile);
-        if (!best || better(candidate, *best)) best = std::move(candidate);
-        if (best->fits()) break;
-    }
-    return std::move(*best);
-}
-
-Result<Candidate> attempt(const ir::Program& program, Profile profile, passes::FirstHitForm form) {
+Result<PixelStage> attempt(const ir::Program& recorded, Profile profile,
+                           passes::FirstHitForm form) {
     std::vector<std::string> notes;
-    auto straight = straighten(program, form, notes);
-    if (!straight) return straight.error();
-    const ir::Module& module = straight->pixel;
+    auto program = straighten(recorded, form, notes);
+    if (!program) return program.error();
+    const ir::Module& module = program->pixel;
     auto graph = lower(module, profile, notes);
     if (!graph) return graph.error();
     const Limits& limits = limits_of(profile);
     int next = 0;
     const std::vector<int> uniforms = assign_uniforms(module, *graph, next);
-    std::optional<Candidate> best;
     const Graph wide = with_wide_output(*graph);
     if (cost_of(wide, limits, uniforms) < cost_of(*graph, limits, uniforms)) *graph = wide;
-    for (const std::vector<Graph>& packings :
-         pack(*graph, limits, uniforms, evaluations_for(*graph))) {
-        Candidate candidate = cheapest_fitting(module, packings, profile);
-        if (!best || better(candidate, *best)) best = std::move(candidate);
+    PixelStage result{best_of(module, *graph, profile), std::move(*program)};
+    result.candidate.notes = std::move(notes);
+    return result;
+}
+
+Result<PixelStage> best_pixel_stage(const ir::Program& recorded, Profile profile) {
+    if (!is_pixel(profile))
+        return input_error("d3d9-stage",
+                           fmt::format("{} is no profile of pixel shaders; those are ps_2_0, "
+                                       "ps_2_a, ps_2_b and ps_3_0",
+                                       name_of(profile)));
+    std::optional<PixelStage> best;
+    for (const passes::FirstHitForm form :
+         {passes::FirstHitForm::PackedRefetch, passes::FirstHitForm::Chain}) {
+        auto stage = attempt(recorded, profile, form);
+        if (!stage) return stage.error();
+        if (!best || better(stage->candidate, best->candidate)) best = std::move(*stage);
     }
-    best->notes = std::move(notes);
+    if (!best->candidate.fits()) return refuse(recorded.name, best->candidate);
+    for (const ir::Sampler& sampler : recorded.pixel.samplers)
+        if (sampler.filter == ir::Sampler::Filter::Nearest)
+            best->candidate.notes.push_back(
+                fmt::format("{} must be sampled nearest: set its three filters to D3DTEXF_POINT.",
+                            sampler.name));
     return std::move(*best);
 }
 
-std::string place_of(const Shader& shader, const ir::Origin& origin) {
-    if (origin.file < 0 || origin.file >= static_cast<int>(shader.files.size())) return {};
-    return fmt::format("{}:{}", shader.files[static_cast<std::size_t>(origin.file)], origin.line);
+// The interpolants in registers that the pixel shader declares.
+std::vector<Interpolant> read_by(const PixelStage& stage) {
+    std::vector<Interpolant> result;
+    const std::vector<InterpolantPlace>& places = stage.candidate.inputs;
+    for (std::size_t i = 0; i < places.size(); ++i)
+        for (const Declaration& declaration : stage.candidate.shader.declarations)
+            if (declaration.sampler == SamplerKind::None &&
+                declaration.target.index == places[i].index)
+                result.push_back({stage.program.pixel.inputs[i].name, places[i]});
+    return result;
 }
 
-// "march takes 61 of them, most at templates/search/steep_parallax.cpp:43"
-std::string spender(const Shader& shader) {
-    std::map<int, int> steps;
-    for (const Instruction& instruction : shader.instructions)
-        steps[instruction.origin.step] += slots_of(instruction).total();
-    const auto most =
-        std::max_element(steps.begin(), steps.end(),
-                         [](const auto& a, const auto& b) { return a.second < b.second; });
-    if (most == steps.end()) return {};
-    std::map<std::string, int> lines;
-    for (const Instruction& instruction : shader.instructions)
-        if (instruction.origin.step == most->first)
-            lines[place_of(shader, instruction.origin)] += slots_of(instruction).total();
-    const auto line =
-        std::max_element(lines.begin(), lines.end(),
-                         [](const auto& a, const auto& b) { return a.second < b.second; });
-    const bool named = most->first >= 0 && most->first < static_cast<int>(shader.steps.size());
-    return fmt::format(
-        "{} takes {} of its {} slots, {} of them at {}",
-        named ? "the step '" + shader.steps[static_cast<std::size_t>(most->first)].name + "'"
-              : "work outside the steps",
-        most->second, slots_of(shader).total(), line->second,
-        line->first.empty() ? "an unknown line" : line->first);
-}
-
-std::string limit_exceeded(const Candidate& candidate) {
-    const Limits& limits = limits_of(candidate.shader.profile);
-    const Slots slots = slots_of(candidate.shader);
-    std::vector<std::string> parts;
-    const auto over = [&](std::string_view what, int used, int limit) {
-        if (used > limit)
-            parts.push_back(fmt::format("needs {} {}, {} more than the {} it has", used, what,
-                                        used - limit, limit));
-    };
-    over("arithmetic slots", slots.arithmetic, limits.arithmetic_slots);
-    over("texture slots", slots.texture, limits.texture_slots);
-    if (parts.empty()) over("slots", slots.total(), limits.total_slots);
-    if (parts.empty() && candidate.failure == AllocationFailure::Temps)
-        parts.push_back(fmt::format("needs more than its {} temporary registers", limits.temps));
-    if (parts.empty() && candidate.failure == AllocationFailure::DependentReads)
-        parts.push_back(
-            fmt::format("needs texture reads that depend on each other more than {} deep",
-                        limits.dependent_level));
-    if (parts.empty() && !candidate.violations.empty())
-        return "refuses it: " + candidate.violations[0].message;
-    return fmt::format("{}", fmt::join(parts, " and "));
-}
-
-Diagnostic refuse(const ir::Program& program, const Candidate& candidate) {
-    std::string_view advice = "ps_2_b or ps_2_a";
-    if (candidate.shader.profile != Profile::ps_2_0) advice = "ps_3_0";
-    if (candidate.shader.profile == Profile::ps_3_0) advice = "a target with loops";
-    return input_error("d3d9-limit",
-                       fmt::format("{} {} for {}: {}; try fewer taps or steps, {}, or "
-                                   "output=displaced and shading in a second pass",
-                                   name_of(candidate.shader.profile), limit_exceeded(candidate),
-                                   program.name, spender(candidate.shader), advice));
+void append(std::vector<std::string>* notes, const std::vector<std::string>& more) {
+    if (notes != nullptr) notes->insert(notes->end(), more.begin(), more.end());
 }
 
 }  // namespace
 
-Result<Shader> generate(const ir::Program& program, ir::Stage stage, Profile profile,
-                        std::vector<std::string>* notes) {
-    if (stage != ir::Stage::Pixel || !is_pixel(profile))
-        return input_error("d3d9-stage",
-                           fmt::format("{} has no code generator for this stage; pixel "
-                                       "stages go to ps_2_0, ps_2_a, ps_2_b, ps_3_0",
-                                       name_of(profile)));
-    std::optional<Candidate> best;
-    for (const passes::FirstHitForm form :
-         {passes::FirstHitForm::PackedRefetch, passes::FirstHitForm::Chain}) {
-        auto candidate = attempt(program, profile, form);
-        if (!candidate) return candidate.error();
-        if (!best || better(*candidate, *best)) best = std::move(*candidate);
-    }
-    if (!best->fits()) return refuse(program, *best);
-    if (notes != nullptr) notes->insert(notes->end(), best->notes.begin(), best->notes.end());
-    return std::move(best->shader);
+Result<Shader> generate_pixel(const ir::Program& recorded, Profile profile,
+                              std::vector<std::string>* notes) {
+    auto stage = best_pixel_stage(recorded, profile);
+    if (!stage) return stage.error();
+    append(notes, stage->candidate.notes);
+    return std::move(stage->candidate.shader);
+}
+
+Result<Stages> generate_program(const ir::Program& recorded, Profile profile) {
+    auto pixel = best_pixel_stage(recorded, profile);
+    if (!pixel) return pixel.error();
+    auto vertex = vertex_stage(pixel->program, read_by(*pixel),
+                               profile == Profile::ps_3_0 ? Profile::vs_3_0 : Profile::vs_2_0);
+    if (!vertex) return vertex.error();
+    Stages stages{std::move(vertex->shader), std::move(pixel->candidate.shader),
+                  std::move(pixel->candidate.notes)};
+    append(&stages.notes, vertex->notes);
+    return stages;
+}
+
+Result<Shader> generate_vertex(const ir::Program& recorded, Profile profile,
+                               std::vector<std::string>* notes) {
+    if (is_pixel(profile))
+        return input_error("d3d9-stage", fmt::format("{} is no profile of vertex shaders; those "
+                                                     "are vs_2_0 and vs_3_0",
+                                                     name_of(profile)));
+    std::vector<std::string> more;
+    auto program = straighten(recorded, passes::FirstHitForm::Chain, more);
+    if (!program) return program.error();
+    const Profile pixel = profile == Profile::vs_3_0 ? Profile::ps_3_0 : Profile::ps_2_0;
+    std::vector<Interpolant> all;
+    const auto places = interpolant_places(program->pixel, pixel);
+    for (std::size_t i = 0; i < places.size(); ++i)
+        all.push_back({program->pixel.inputs[i].name, places[i]});
+    auto vertex = vertex_stage(*program, all, profile);
+    if (!vertex) return vertex.error();
+    append(notes, more);
+    append(notes, vertex->notes);
+    return std::move(vertex->shader);
 }
 
 }  // namespace intaglio::d3d9

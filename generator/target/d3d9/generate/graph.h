@@ -31,12 +31,13 @@ struct Operand {
 };
 
 struct Node {
-    enum class Kind : std::uint8_t { Op, Constant, Uniform, Input };
+    // A variable is a register that other blocks of a shader with loops write.
+    enum class Kind : std::uint8_t { Op, Constant, Uniform, Input, Variable };
     Kind kind = Kind::Op;
     Opcode op = Opcode::Mov;
     bool saturate = false;
     int width = 1;           // components of the result; 4 of a texture read
-    int slot = 0;            // uniform, input, or the sampler of a texture read
+    int slot = 0;            // uniform, input, variable, or the sampler of a texture read
     int element = 0;         // of a uniform array
     std::uint32_t bits = 0;  // of a constant, which is one float
     std::vector<Operand> operands;
@@ -47,6 +48,9 @@ struct Graph {
     std::vector<Node> nodes;               // operands may point anywhere; order() sorts
     std::vector<Operand> outputs;          // of four components each: oC0, oC1 ...
     std::vector<InterpolantPlace> inputs;  // where each of the module's inputs lies
+    int variables = 0;                     // registers that code places first
+    // Of a vertex shader: where each output lies; their widths are those of the operands.
+    std::vector<InterpolantPlace> output_places;
 
     const Node& node(Lane lane) const { return nodes[static_cast<std::size_t>(lane.node)]; }
     Node& node(Lane lane) { return nodes[static_cast<std::size_t>(lane.node)]; }

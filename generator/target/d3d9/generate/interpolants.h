@@ -17,6 +17,9 @@ struct InterpolantPlace {
     friend bool operator==(const InterpolantPlace&, const InterpolantPlace&) = default;
 };
 
+// The index of the vertex shader's position, which is no interpolant.
+inline constexpr int position_output = -1;
+
 // For each input of the optimised pixel module its place.  No two inputs share a component.
 std::vector<InterpolantPlace> interpolant_places(const ir::Module& pixel, Profile profile);
 

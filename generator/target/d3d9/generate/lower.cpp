@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "generator/passes/rewrite.h"
+#include "generator/target/d3d9/limits.h"
 
 namespace intaglio::d3d9 {
 namespace {
@@ -247,10 +248,11 @@ class Lowering {
     void finish(const ir::Instruction& instruction) {
         for (const ir::ValueId id : instruction.operands) {
             Vec refs = value(id);
-            while (refs.size() < 4) refs.push_back(constant(refs.size() == 3 ? 1.0f : 0.0f));
+            while (is_pixel(profile_) && refs.size() < 4)
+                refs.push_back(constant(refs.size() == 3 ? 1.0f : 0.0f));
             graph_.outputs.push_back(operand(refs));
             Operand& output = graph_.outputs.back();
-            if (!output.negate) continue;
+            if (!output.negate || !is_pixel(profile_)) continue;
             Node node;  // oC# takes no sign
             node.width = 4;
             node.operands = {output};
@@ -313,7 +315,7 @@ Result<Vec> Lowering::sample(const ir::Instruction& instruction) {
     const bool gradients = profile_ == Profile::ps_2_a || profile_ == Profile::ps_3_0;
     if (instruction.op == ir::Op::SampleLevel) {
         const Ref level = value(instruction.operands[1])[0];
-        if (profile_ == Profile::ps_3_0) {
+        if (limits_of(profile_).model_3()) {
             op = Opcode::Texldl;
             while (operands[0].size() < 3) operands[0].push_back(constant(0));
             operands[0].push_back(level);

@@ -11,33 +11,6 @@
 namespace intaglio::d3d9 {
 
 namespace {
-constexpr Swizzle limited_swizzles[] = {{0, 1, 2, 3}, {0, 0, 0, 0}, {1, 1, 1, 1}, {2, 2, 2, 2},
-                                        {3, 3, 3, 3}, {1, 2, 0, 3}, {2, 0, 1, 3}, {3, 2, 1, 0}};
-}
-
-std::optional<Swizzle> find_swizzle(const std::array<int, 4>& lanes, const Limits& limits) {
-    for (const Swizzle& candidate : limited_swizzles) {
-        bool fits = true;
-        for (std::size_t k = 0; k < 4; ++k)
-            fits = fits && (lanes[k] < 0 || lanes[k] == candidate[k]);
-        if (fits) return candidate;
-    }
-    if (!limits.arbitrary_swizzle) return std::nullopt;
-    Swizzle result{};
-    int last = 0;
-    for (std::size_t k = 0; k < 4; ++k)
-        if (lanes[k] >= 0) {
-            last = lanes[k];
-            break;
-        }
-    for (std::size_t k = 0; k < 4; ++k) {
-        if (lanes[k] >= 0) last = lanes[k];
-        result[k] = static_cast<std::uint8_t>(last);
-    }
-    return result;
-}
-
-namespace {
 
 struct Location {
     VirtualSource::Kind kind = VirtualSource::Kind::Temp;
@@ -58,11 +31,13 @@ class Placement {
           order_(order),
           limits_(limits),
           uniforms_(uniform_registers),
-          homes_(graph.nodes.size()) {}
+          homes_(graph.nodes.size()) {
+        for (int k = 0; k < graph.variables; ++k) lanes(new_register()) = full_mask;
+    }
 
     Code run() {
         for (std::size_t k = 0; k < graph_.outputs.size(); ++k)
-            want({-1, static_cast<int>(k)}, graph_.outputs[k], {0, 1, 2, 3}, true);
+            want({-1, static_cast<int>(k)}, graph_.outputs[k], positions_of_output(k), true);
         for (std::size_t i = order_.size(); i-- > 0;) choose_homes(order_[i]);
         for (const int index : order_) emit(index);
         for (std::size_t k = 0; k < graph_.outputs.size(); ++k) emit_output(static_cast<int>(k));
@@ -194,6 +169,12 @@ class Placement {
         return result;
     }
 
+    Positions positions_of_output(std::size_t k) const {
+        if (graph_.output_places.empty()) return {0, 1, 2, 3};
+        const auto& lanes = graph_.output_places[k].lanes;
+        return {lanes.begin(), lanes.begin() + graph_.output_places[k].width};
+    }
+
     void choose_homes(int index) {
         const Node& n = node(index);
         if (home(index).target < 0) {
@@ -222,6 +203,8 @@ class Placement {
             return {VirtualSource::Kind::Input, place_of(n).index,
                     place_of(n).lanes[static_cast<std::size_t>(lane.component)]};
         if (n.kind == Node::Kind::Constant) return {VirtualSource::Kind::Constant, lane.node, 0};
+        if (n.kind == Node::Kind::Variable)
+            return {VirtualSource::Kind::Temp, n.slot, lane.component};
         const Home& h = home(lane.node);
         return {VirtualSource::Kind::Temp, h.target,
                 h.lane[static_cast<std::size_t>(lane.component)]};
@@ -280,14 +263,7 @@ class Placement {
                 !at_home(list[k], target, positions[k]))
                 rest.push_back(k);
         while (!rest.empty()) {
-            // The largest part that one mov can do.
-            std::vector<std::size_t> part;
-            for (std::size_t set = 1; set < (1u << rest.size()); ++set) {
-                std::vector<std::size_t> trial;
-                for (std::size_t j = 0; j < rest.size(); ++j)
-                    if ((set >> j & 1) != 0) trial.push_back(rest[j]);
-                if (trial.size() > part.size() && direct_part(list, positions, trial)) part = trial;
-            }
+            const auto part = largest_part(list, positions, rest);
             Mask mask = 0;
             for (const std::size_t k : part) {
                 mask = static_cast<Mask>(mask | (1 << positions[k]));
@@ -297,6 +273,18 @@ class Placement {
             move(target, mask, *direct_part(list, positions, part));
             for (const std::size_t k : part) rest.erase(std::find(rest.begin(), rest.end(), k));
         }
+    }
+    // The largest part that one mov can do.
+    std::vector<std::size_t> largest_part(const std::vector<Lane>& list, const Positions& positions,
+                                          const std::vector<std::size_t>& rest) {
+        std::vector<std::size_t> part;
+        for (std::size_t set = 1; set < (1u << rest.size()); ++set) {
+            std::vector<std::size_t> trial;
+            for (std::size_t j = 0; j < rest.size(); ++j)
+                if ((set >> j & 1) != 0) trial.push_back(rest[j]);
+            if (trial.size() > part.size() && direct_part(list, positions, trial)) part = trial;
+        }
+        return part;
     }
     bool at_home(Lane lane, int target, int position) {
         const Location at = locate(lane);
@@ -445,8 +433,26 @@ class Placement {
         code_.instructions.push_back(std::move(instruction));
     }
 
+    // Vertex shaders take outputs lane by lane.
+    void emit_output_lanes(int k, const Operand& operand) {
+        const Positions positions = positions_of_output(static_cast<std::size_t>(k));
+        std::vector<std::size_t> rest;
+        for (std::size_t c = 0; c < operand.lanes.size(); ++c) rest.push_back(c);
+        while (!rest.empty()) {
+            const auto part = largest_part(operand.lanes, positions, rest);
+            Mask mask = 0;
+            for (const std::size_t c : part) mask = static_cast<Mask>(mask | (1 << positions[c]));
+            move(-1, mask, *direct_part(operand.lanes, positions, part));
+            VirtualInstruction& mov = code_.instructions.back();
+            mov.output = k;
+            mov.sources[0].negate = operand.negate;
+            for (const std::size_t c : part) rest.erase(std::find(rest.begin(), rest.end(), c));
+        }
+    }
+
     void emit_output(int k) {
         const Operand& operand = graph_.outputs[static_cast<std::size_t>(k)];
+        if (!limits_.pixel()) return emit_output_lanes(k, operand);
         VirtualInstruction mov;
         mov.output = k;
         mov.origin = origin_;
@@ -489,7 +495,9 @@ class Placement {
 
 Code place(const Graph& graph, const std::vector<int>& order, const Limits& limits,
            const std::vector<int>& uniform_registers) {
-    return Placement(graph, order, limits, uniform_registers).run();
+    Code code = Placement(graph, order, limits, uniform_registers).run();
+    if (!limits.pixel()) write_outputs_directly(code);
+    return code;
 }
 
 }  // namespace intaglio::d3d9

@@ -23,6 +23,8 @@ bool is_componentwise(Opcode op) {
         case Opcode::Min:
         case Opcode::Max:
         case Opcode::Cmp:
+        case Opcode::Slt:
+        case Opcode::Sge:
         case Opcode::Frc:
         case Opcode::Abs: return true;
         default: return false;
