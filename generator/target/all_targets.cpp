@@ -1,6 +1,7 @@
 // The table of targets.  A new one is a folder, and a line here.
 #include <algorithm>
 
+#include "generator/target/d3d9/rows/rows.h"
 #include "generator/target/glsl/glsl.h"
 #include "generator/target/hlsl/hlsl.h"
 #include "generator/target/none/none.h"
@@ -25,7 +26,8 @@ const Target msl = {
 };
 
 constexpr const Target* table[] = {&glsl_450, &glsl_330, &glsl_120, &essl_300, &essl_100, &hlsl_5_0,
-                                   &hlsl_3_0, &hlsl_2_b, &hlsl_2_0, &spirv,    &msl,      &none};
+                                   &hlsl_3_0, &hlsl_2_b, &hlsl_2_0, &ps_3_0,   &ps_2_b,   &ps_2_a,
+                                   &ps_2_0,   &vs_3_0,   &vs_2_0,   &spirv,    &msl,      &none};
 
 }  // namespace
 

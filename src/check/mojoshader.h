@@ -63,6 +63,15 @@ Result<D3d9Program> link_d3d9(D3d9Words vertex, D3d9Words pixel);
 // and color n by `out vec4 mojo_color<n>`.
 Result<D3d9Program> link_d3d9(const Source& vertex, D3d9Words pixel);
 
+// The stage with its uniforms and textures called as in the constant table, a register's further
+// components being zero: what a caller of the runner sets by name.  Registers without a name stay
+// in their array.
+D3d9Stage with_names(D3d9Stage stage);
+
+// Both stages of link_d3d9 with names: a program like those of other languages.  A name that both
+// tables have is one uniform.
+Result<Program> link_d3d9_by_name(D3d9Words vertex, D3d9Words pixel);
+
 // The uniform arrays of the program, by their names in it, from values by their names in the
 // constant table: register after register, each as many as it has components.  A register that the
 // table does not name is looked up as c5, i0 or b1, with four values (b: one).  Values that the

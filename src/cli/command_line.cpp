@@ -85,10 +85,12 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
         auto options = std::make_shared<EmitCommandOptions>();
         CLI::App* command = app.add_subcommand("emit", "One variant as text or binary");
         add_variant(*command, options->variant);
-        command->add_option("--stage", options->stage, "vertex or pixel")->capture_default_str();
+        command->add_option("--stage", options->stage,
+                            "vertex or pixel; pixel if not given, vertex of a vertex profile");
         command
-            ->add_option("--as", options->as,
-                         "shader, or function: a part to paste into a shader of one's own")
+            ->add_option(
+                "--as", options->as,
+                "shader, function (a part to paste into a shader of one's own), or bytecode")
             ->capture_default_str();
         command->add_option("--part", options->part, "Of a function: search or shadow")
             ->capture_default_str();
@@ -112,7 +114,8 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
     {
         auto options = std::make_shared<ValidateOptions>();
         CLI::App* command = app.add_subcommand(
-            "validate", "Variants through every witness: glslang, SPIRV-Tools, SPIRV-Cross");
+            "validate",
+            "Variants through every witness: glslang, SPIRV-Tools, SPIRV-Cross, MojoShader");
         command->add_option("surfaces", options->surfaces, "Surfaces")->required();
         command
             ->add_option("-T,--target", options->targets,

@@ -31,8 +31,8 @@ Result<VariantRequest> request_of(const VariantOptions& options);
 
 struct EmitCommandOptions {
     VariantOptions variant;
-    std::string stage = "pixel";      // vertex, pixel
-    std::string as = "shader";        // shader, function
+    std::string stage;                // vertex, pixel; empty: the pixel stage if there is one
+    std::string as = "shader";        // shader, function, bytecode
     std::string part = "search";      // of a function: search, shadow
     std::string bind = "parameters";  // of a function: parameters, globals
     bool count_reads = false;

@@ -19,8 +19,9 @@ Status one_of(std::string_view option, const std::string& value,
 }
 
 Status check_choices(const EmitCommandOptions& options) {
-    for (const Status& status : {one_of("--stage", options.stage, {"vertex", "pixel"}),
-                                 one_of("--as", options.as, {"shader", "function"}),
+    const std::string stage = options.stage.empty() ? "pixel" : options.stage;
+    for (const Status& status : {one_of("--stage", stage, {"vertex", "pixel"}),
+                                 one_of("--as", options.as, {"shader", "function", "bytecode"}),
                                  one_of("--part", options.part, {"search", "shadow"}),
                                  one_of("--bind", options.bind, {"parameters", "globals"})})
         if (!status) return status;
@@ -60,8 +61,11 @@ Status emit_variant(const dsl::Catalogue& catalogue, const EmitCommandOptions& o
     } else {
         const Result<Variant> variant = make_variant(catalogue, *request, dump);
         if (!variant) return variant.error();
-        const ir::Stage stage = options.stage == "vertex" ? ir::Stage::Vertex : ir::Stage::Pixel;
-        Result<Product> made = product_of(*variant, stage);
+        const bool vertex =
+            options.stage.empty() ? !variant->target->pixel_stage : options.stage == "vertex";
+        const ir::Stage stage = vertex ? ir::Stage::Vertex : ir::Stage::Pixel;
+        Result<Product> made =
+            product_of(*variant, stage, options.as == "bytecode" ? Form::Bytecode : Form::Shader);
         if (!made) return made.error();
         product = std::move(*made);
         const Artifact& artifact = stage == ir::Stage::Vertex ? variant->vertex : variant->pixel;
@@ -71,37 +75,62 @@ Status emit_variant(const dsl::Catalogue& catalogue, const EmitCommandOptions& o
     return write_product(options.output, product.bytes, product.binary);
 }
 
+namespace {
+
+// What the witnesses counted.
+std::string cost_text(const Target& target, const Judged& judged) {
+    if (!judged.shaders.empty()) {
+        std::string text;
+        for (const d3d9::Shader& shader : judged.shaders) {
+            const d3d9::Resources used = d3d9::count(shader);
+            text += fmt::format("{}{}: {} arithmetic and {} texture slots, {} temps, {} constants",
+                                text.empty() ? "" : "; ", name_of(shader.profile), used.arithmetic,
+                                used.texture, used.temps, used.constants);
+            if (is_pixel(shader.profile))
+                text += fmt::format(", dependent level {}", used.dependent_level);
+        }
+        return text;
+    }
+    if (!check::has_spirv(*language_of(target))) return "no SPIR-V of this language to count";
+    const check::SpirvCost& cost = judged.pixel_cost;
+    return fmt::format("{} SPIR-V instructions ({} alu, {} texture, {} branch), path {} to {}",
+                       cost.total, cost.alu, cost.texture, cost.branch, cost.shortest_path,
+                       cost.longest_path);
+}
+
+// One surface on one target.  What a target refuses is a line of the table, unless it was asked
+// for.
+Status validate_one(const dsl::Catalogue& catalogue, const ValidateOptions& options,
+                    const std::string& surface, const std::string& target) {
+    const Result<VariantRequest> request =
+        request_of({surface, target, options.knobs, options.loops, false});
+    if (!request) return request.error();
+    const Result<Variant> variant = make_variant(catalogue, *request);
+    if (!variant && options.targets.empty() && is_refusal(variant.error())) {
+        fmt::print("{:<46} {:<10} refused: {}\n", surface, target, variant.error().message);
+        return Done{};
+    }
+    if (!variant) return variant.error();
+    const Result<Judged> judged = judge_variant(*variant);
+    if (!judged) return judged.error();
+    fmt::print("{:<46} {:<10} accepted by {} steps; {}\n", surface, target, judged->steps.size(),
+               cost_text(*variant->target, *judged));
+    if (options.verbose)
+        for (const std::string& step : judged->steps) fmt::print("    {}\n", step);
+    return Done{};
+}
+
+}  // namespace
+
 Status validate(const dsl::Catalogue& catalogue, const ValidateOptions& options) {
     std::vector<std::string> targets = options.targets;
     if (targets.empty())
         for (const Target* target : all_targets())
-            if (language_of(*target)) targets.emplace_back(target->name);
+            if (is_judged(*target)) targets.emplace_back(target->name);
     for (const std::string& surface : options.surfaces)
-        for (const std::string& target : targets) {
-            const Result<VariantRequest> request =
-                request_of({surface, target, options.knobs, options.loops, false});
-            if (!request) return request.error();
-            const Result<Variant> variant = make_variant(catalogue, *request);
-            if (!variant && options.targets.empty() && variant.error().code == "target-limit") {
-                fmt::print("{:<46} {:<10} refused: {}\n", surface, target, variant.error().message);
-                continue;
-            }
-            if (!variant) return variant.error();
-            const Result<Judged> judged = judge_variant(*variant);
-            if (!judged) return judged.error();
-            const check::SpirvCost& cost = judged->pixel_cost;
-            fmt::print("{:<46} {:<10} accepted by {} steps; ", surface, target,
-                       judged->steps.size());
-            if (check::has_spirv(*language_of(*variant->target)))
-                fmt::print(
-                    "{} SPIR-V instructions ({} alu, {} texture, {} branch), path {} to {}\n",
-                    cost.total, cost.alu, cost.texture, cost.branch, cost.shortest_path,
-                    cost.longest_path);
-            else
-                fmt::print("no SPIR-V of this language to count\n");
-            if (options.verbose)
-                for (const std::string& step : judged->steps) fmt::print("    {}\n", step);
-        }
+        for (const std::string& target : targets)
+            if (Status status = validate_one(catalogue, options, surface, target); !status)
+                return status;
     return Done{};
 }
 

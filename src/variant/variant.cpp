@@ -8,6 +8,7 @@
 #include "generator/base/nearest.h"
 #include "src/check/derive.h"
 #include "src/check/spirv.h"
+#include "src/variant/bytecode.h"
 
 namespace intaglio {
 namespace {
@@ -88,8 +89,22 @@ Result<Variant> make_variant(const dsl::Catalogue& catalogue, const VariantReque
                    std::move(emitted->pixel)};
 }
 
-Result<Product> product_of(const Variant& variant, ir::Stage stage) {
+Result<Product> product_of(const Variant& variant, ir::Stage stage, Form form) {
     const Artifact& artifact = stage == ir::Stage::Vertex ? variant.vertex : variant.pixel;
+    const std::string_view target = variant.target->name;
+    if (stage == ir::Stage::Pixel && !variant.target->pixel_stage)
+        return input_error(
+            "no-stage",
+            fmt::format("{} is a profile of vertex shaders; the pixel stage is "
+                        "{}",
+                        target,
+                        target == "vs_3_0" ? "ps_3_0's" : "that of ps_2_0, ps_2_a or ps_2_b"));
+    if (form == Form::Bytecode && !artifact.bytecode.bytes.empty())
+        return Product{artifact.bytecode.bytes, artifact.bytecode.extension, true};
+    if (form == Form::Bytecode && target != "spirv")
+        return input_error(
+            "no-bytecode",
+            fmt::format("{} is text; bytecode is for the targets ps_*, vs_* and spirv", target));
     if (variant.target->derived_from.empty())
         return Product{artifact.text, artifact.extension, false};
     const check::Source source = source_of(variant, stage);
@@ -139,7 +154,17 @@ check::Source source_of(const Variant& variant, ir::Stage stage) {
         fmt::format("{}.{}{}", variant.request.surface, variant.target->name, artifact.extension)};
 }
 
-Result<check::Program> link_variant(const Variant& variant) {
+std::optional<d3d9::Profile> profile_of(const Target& target) {
+    return d3d9::profile_named(target.name);
+}
+
+bool is_judged(const Target& target) {
+    return language_of(target).has_value() || profile_of(target).has_value();
+}
+
+namespace {
+
+Result<check::Program> link_text(const Variant& variant) {
     const std::optional<check::Language> language = language_of(*variant.target);
     if (!language)
         return input_error("not-runnable",
@@ -152,12 +177,7 @@ Result<check::Program> link_variant(const Variant& variant) {
                         variant.target->name));
     Result<check::Program> program = check::link_to_spirv(source_of(variant, ir::Stage::Vertex),
                                                           source_of(variant, ir::Stage::Pixel));
-    if (!program) return program;
-    for (const ir::Module* module : {&variant.program.vertex, &variant.program.pixel})
-        for (const ir::Sampler& sampler : module->samplers)
-            if (sampler.filter == ir::Sampler::Filter::Nearest)
-                program->nearest.insert(sampler.name);
-    if (variant.target->name != "spirv") return program;
+    if (!program || variant.target->name != "spirv") return program;
     for (check::SpirvWords* words : {&program->vertex, &program->pixel}) {
         Result<check::SpirvWords> optimized = check::optimize_spirv(*words);
         if (!optimized) return optimized.error();
@@ -166,7 +186,21 @@ Result<check::Program> link_variant(const Variant& variant) {
     return program;
 }
 
+}  // namespace
+
+Result<check::Program> link_variant(const Variant& variant) {
+    Result<check::Program> program =
+        profile_of(*variant.target) ? link_bytecode(variant) : link_text(variant);
+    if (!program) return program;
+    for (const ir::Module* module : {&variant.program.vertex, &variant.program.pixel})
+        for (const ir::Sampler& sampler : module->samplers)
+            if (sampler.filter == ir::Sampler::Filter::Nearest)
+                program->nearest.insert(sampler.name);
+    return program;
+}
+
 Result<Judged> judge_variant(const Variant& variant) {
+    if (profile_of(*variant.target)) return judge_bytecode(variant);
     const std::optional<check::Language> language = language_of(*variant.target);
     if (!language)
         return input_error("no-witness",

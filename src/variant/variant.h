@@ -10,6 +10,7 @@
 
 #include "generator/dsl/catalogue.h"
 #include "generator/dsl/passes.h"
+#include "generator/target/d3d9/resources.h"
 #include "generator/target/target.h"
 #include "src/check/cost.h"
 #include "src/check/frontend.h"
@@ -47,26 +48,36 @@ struct Product {
 // knobs out of range, and what the target refuses.
 Result<Variant> make_variant(const dsl::Catalogue& catalogue, const VariantRequest& request,
                              const EmitOptions& options = {});
-Result<Product> product_of(const Variant& variant, ir::Stage stage);
+// Which form of a stage: the text (of a binary target its bytes), or the bytecode beside the text.
+enum class Form { Shader, Bytecode };
+// Errors: "no-stage": a profile of vertex shaders has no pixel stage; "no-bytecode".
+Result<Product> product_of(const Variant& variant, ir::Stage stage, Form form = Form::Shader);
 
 // One part of a surface as a function to paste into a shader of one's own.
 Result<Artifact> make_function(const dsl::Catalogue& catalogue, const VariantRequest& request,
                                dsl::FunctionPart part, Binding binding,
                                const EmitOptions& options = {});
 
-// The language a witness reads a target's text as; nothing for `none`, which no witness reads.
+// The language a witness reads a target's text as; nothing for `none`, which no witness reads, and
+// for the Direct3D 9 profiles, whose bytecode is read instead.
 std::optional<check::Language> language_of(const Target& target);
+// The profile of a Direct3D 9 target.
+std::optional<d3d9::Profile> profile_of(const Target& target);
+// Whether judge_variant has witnesses for it.
+bool is_judged(const Target& target);
 check::Source source_of(const Variant& variant, ir::Stage stage);
 
 // Both stages as SPIR-V that fit each other, ready to run.  For the target `spirv` the optimised
-// modules.  Error "not-runnable" for `none`, and for glsl_120 and essl_100, which end after the
-// front end.
+// modules, for Direct3D 9 what MojoShader makes of the bytecode.  Error "not-runnable" for `none`,
+// for glsl_120 and essl_100, which end after the front end, and for a vertex profile alone.
 Result<check::Program> link_variant(const Variant& variant);
 
 struct Judged {
     std::vector<std::string> steps;  // what each witness accepted, in order
     check::SpirvCost
         pixel_cost;  // of the optimised pixel stage; zero where the language has no SPIR-V
+    std::vector<d3d9::Shader>
+        shaders;  // Direct3D 9: the stages there are, as decoded from their bytes
 };
 // Both stages through every witness there is for the target.  Error "no-witness" for a target
 // without one.

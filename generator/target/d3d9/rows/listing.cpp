@@ -1,0 +1,65 @@
+// A header of comments above what print() writes.
+#include "generator/target/d3d9/rows/listing.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "generator/target/clike/layout.h"
+#include "generator/target/clike/shell.h"
+#include "generator/target/d3d9/assembly.h"
+#include "generator/target/d3d9/resources.h"
+
+namespace intaglio::d3d9 {
+namespace {
+
+// What a uniform or texture means, in the DSL's words.
+std::string meaning_of(const ir::Program& recorded, const std::string& name) {
+    for (const ir::Module* module : {&recorded.pixel, &recorded.vertex}) {
+        for (const ir::Uniform& uniform : module->uniforms)
+            if (uniform.name == name) return uniform.comment;
+        for (const ir::Sampler& sampler : module->samplers)
+            if (sampler.name == name) return sampler.comment;
+    }
+    return {};
+}
+
+std::string registers_of(const Constant& constant) {
+    const char letter = set_letters[static_cast<std::size_t>(constant.set)][0];
+    std::string text = fmt::format("{}{}", letter, constant.index);
+    if (constant.count > 1)
+        text += fmt::format(" to {}{}", letter, constant.index + constant.count - 1);
+    return text;
+}
+
+void put_bindings(TextBuilder& out, const ir::Program& recorded, const Shader& shader) {
+    for (const Constant& constant : shader.constants) {
+        const std::string meaning = meaning_of(recorded, constant.name);
+        clike::put_comment(out, fmt::format("{} {}{}{}", registers_of(constant), constant.name,
+                                            meaning.empty() ? "" : ": ", meaning));
+    }
+}
+
+// "Uses 43 of 64 arithmetic slots, 9 of 32 texture slots ..."
+void put_headroom(TextBuilder& out, const Shader& shader) {
+    std::string line;
+    for (const Headroom& row : headroom(shader))
+        if (row.used > 0)
+            line += fmt::format("{}{} of {} {}", line.empty() ? "Uses " : ", ", row.used, row.limit,
+                                row.resource);
+    if (!line.empty()) clike::put_comment(out, line);
+}
+
+}  // namespace
+
+std::string listing(const ir::Program& recorded, ir::Stage stage, const Target& target,
+                    const Shader& shader) {
+    TextBuilder out;
+    clike::put_header(out, recorded, stage, target);
+    put_bindings(out, recorded, shader);
+    put_headroom(out, shader);
+    out.line();
+    return out.take() + print(shader);
+}
+
+}  // namespace intaglio::d3d9
