@@ -22,6 +22,8 @@ constexpr int most_special_iterations =
     2;  // whose results are not functions of h, from the first on
 constexpr std::size_t register_width = 4;
 
+constexpr float free_distance = 0x1p-22f;  // Rounding::Free
+
 float as_float(const ConstantBits& bits) { return std::bit_cast<float>(bits[0]); }
 
 bool is_key(const Table& table) {
@@ -33,8 +35,13 @@ bool is_key(const Table& table) {
 class Lowering {
   public:
     // `uses`: how often each value is an operand before the rewriting.
-    Lowering(Module& module, const FirstHitLoop& search, const std::vector<int>& uses)
-        : module_(module), search_(search), uses_(uses) {}
+    Lowering(Module& module, const Definitions& definitions, const FirstHitLoop& search,
+             const std::vector<int>& uses, Rounding rounding)
+        : module_(module),
+          definitions_(definitions),
+          search_(search),
+          uses_(uses),
+          rounding_(rounding) {}
 
     // The code that takes the loop's place and the values of its results (those that are used);
     // false if no key allows it.
@@ -132,8 +139,10 @@ class Lowering {
         const auto consider = [&](ValueId value) {
             if (module_.type(value) != float1) return;
             for (int back = 0; back <= most_special_iterations; ++back)
-                if (const auto table = table_of(value, back); table && is_key(*table))
-                    keys.push_back(*table);
+                if (auto table = table_of(value, back)) {
+                    if (is_same(as_float(table->back()), 0)) table->back() = {};
+                    if (is_key(*table)) keys.push_back(*table);
+                }
         };
         for (const Instruction& instruction : search_.body())
             for (ValueId result : instruction.results) consider(result);
@@ -181,8 +190,40 @@ class Lowering {
             result = select(missed, at(search_.next_value(k), search_.trips() - 1), *result);
         }
         for (int i = search_.valid_from(value); i-- > 0;)
-            result = select(conditions_[static_cast<std::size_t>(i)], at(value, i), *result);
+            result = select(conditions_[static_cast<std::size_t>(i)], special(value, i), *result);
         return result;
+    }
+
+    // The value in an iteration, given that the hit is there.
+    ValueId special(ValueId value, int i) {
+        const auto k = search_.parameter(value);
+        if (rounding_ == Rounding::Exact || i > 0 || !k) return at(value, i);
+        return told_by_hit(search_.initial_value(*k)).value_or(at(value, i));
+    }
+    // A value from before the loop, computed from those that are what they are at a hit in the
+    // first iteration; nothing if it has none of them.
+    std::optional<ValueId> told_by_hit(ValueId outside) {
+        const Definition& definition = definitions_[outside];
+        if (!is_arithmetic(definition.op) || definition.op == Op::Constant) return std::nullopt;
+        for (std::size_t k = 0; k < result_count(); ++k) {
+            const ValueId parameter = search_.loop().regions[0].parameters[k + 1];
+            if (search_.initial_value(k) != outside || search_.valid_from(parameter) > 0) continue;
+            const auto found = at_hit_.find({parameter, 0});
+            if (found != at_hit_.end()) return found->second;
+        }
+        if (is_leaf(definition.op)) return std::nullopt;
+        std::vector<ValueId> operands;
+        bool any = false;
+        for (const ValueId operand : definition.operand_span()) {
+            const auto told = told_by_hit(operand);
+            any = any || told;
+            operands.push_back(told.value_or(operand));
+        }
+        if (!any) return std::nullopt;
+        Instruction copy = make_instruction(module_, definition.op, module_.type(outside), operands,
+                                            search_.exit_origin());
+        copy.lanes = definition.lanes;
+        return append(std::move(copy));
     }
 
     ValueId greatest_key() {
@@ -288,7 +329,9 @@ class Lowering {
     std::optional<ValueId> from_key(const Table& table) {
         const auto equals = [&](auto&& computed) {
             for (std::size_t h = 0; h < table.size(); ++h)
-                if (computed(h) != table[h][0]) return false;
+                if (computed(h) != table[h][0] &&
+                    !is_same(std::bit_cast<float>(computed(h)), as_float(table[h])))
+                    return false;
             return true;
         };
         if (equals([&](std::size_t) { return table[0][0]; })) return constant(table[0]);
@@ -306,6 +349,11 @@ class Lowering {
                 return op(Op::Mul, {key_, constant(ratio)});
         }
         return std::nullopt;
+    }
+
+    // Other numbers that count as the same.
+    bool is_same(float a, float b) const {
+        return rounding_ == Rounding::Free && std::fabs(a - b) <= free_distance;
     }
 
     static ConstantBits compute(Op op, const ConstantBits& a, const ConstantBits& b) {
@@ -343,8 +391,10 @@ class Lowering {
     }
 
     Module& module_;
+    const Definitions& definitions_;
     const FirstHitLoop& search_;
     const std::vector<int>& uses_;
+    const Rounding rounding_;
     std::vector<Instruction> code_;
     std::vector<std::optional<ValueId>> results_;
     std::vector<ValueId> conditions_;  // by iteration
@@ -356,8 +406,12 @@ class Lowering {
 
 class Lowerer {
   public:
-    Lowerer(Module& module, const ChooseFirstHit& choose)
-        : module_(module), choose_(choose), substitution_(module), uses_(count_uses(module)) {}
+    Lowerer(Module& module, const ChooseFirstHit& choose, Rounding rounding)
+        : module_(module),
+          choose_(choose),
+          rounding_(rounding),
+          substitution_(module),
+          uses_(count_uses(module)) {}
 
     std::vector<FirstHit> run() {
         visit(module_.body);
@@ -387,7 +441,7 @@ class Lowerer {
         hit.refusal = search.refusal();
         const auto any = hit.refusal.empty() ? any_hit_of(search) : std::nullopt;
         hit.only_whether = any.has_value();
-        Lowering lowering(module_, search, uses_);
+        Lowering lowering(module_, definitions_, search, uses_, rounding_);
         if (hit.refusal.empty()) hit.form = choose_(hit);
         if (hit.form == FirstHitForm::AnyHit && any) {
             const std::vector<ValueId> truths = lowering.run_any_hit(*any);
@@ -424,6 +478,7 @@ class Lowerer {
 
     Module& module_;
     const ChooseFirstHit& choose_;
+    const Rounding rounding_;
     Substitution substitution_;
     Definitions definitions_;
     std::vector<int> uses_;
@@ -433,8 +488,9 @@ class Lowerer {
 
 }  // namespace
 
-std::vector<FirstHit> lower_first_hit(ir::Module& module, const ChooseFirstHit& choose) {
-    return Lowerer(module, choose).run();
+std::vector<FirstHit> lower_first_hit(ir::Module& module, const ChooseFirstHit& choose,
+                                      Rounding rounding) {
+    return Lowerer(module, choose, rounding).run();
 }
 
 std::vector<FirstHit> lower_first_hit(ir::Module& module, FirstHitForm form) {

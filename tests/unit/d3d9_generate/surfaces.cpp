@@ -26,6 +26,9 @@ std::vector<Case> all_cases() {
         cases.push_back({"search=none,shadow=march" + output, shadow("4", "4")});
         for (const std::string taps : {"1", "2", "5", "8"})
             cases.push_back({"parallax_occlusion" + output, {{"taps", taps}}});
+        for (const std::string taps : {"3", "4", "7", "8", "10"})
+            cases.push_back(
+                {"parallax_occlusion" + output, {{"taps", taps}, {"ray_per_vertex", "1"}}});
         cases.push_back({"parallax_occlusion,shadow=fur_depth" + output, {{"taps", "4"}}});
         cases.push_back({"parallax_occlusion" + output, {{"taps", "4"}, {"packed", "1"}}});
         Knobs both = shadow("3", "3");
@@ -36,6 +39,15 @@ std::vector<Case> all_cases() {
         cases.push_back({"steep_parallax" + output, steps("2", "6")});
         cases.push_back({"fur" + output, steps("6", "6")});
     }
+    // Counts of terms beside multiples of four, and steps that are no power of two.
+    for (const std::string count : {"5", "9", "11", "12", "15", "18", "24"}) {
+        Case many{"steep_parallax,output=displaced", steps(count, count)};
+        many.knobs.emplace_back("ray_per_vertex", "1");
+        cases.push_back(many);
+    }
+    Case shadowed{"steep_parallax,shadow=march,output=displaced", steps("3", "3")};
+    for (const auto& knob : shadow("8", "8")) shadowed.knobs.push_back(knob);
+    cases.push_back(shadowed);
     cases.push_back({"parallax_occlusion", {{"taps", "4"}, {"shininess", "2"}}});
     cases.push_back({"parallax_occlusion", {{"taps", "3"}, {"shininess", "8"}}});
     cases.push_back({"parallax_occlusion", {{"taps", "200"}}});

@@ -11,6 +11,7 @@
 #include "generator/passes/rewrite.h"
 #include "generator/target/d3d9/generate/candidate.h"
 #include "generator/target/d3d9/generate/finish.h"
+#include "generator/target/d3d9/generate/fold_divisions.h"
 #include "generator/target/d3d9/generate/lower.h"
 #include "generator/target/d3d9/generate/pack.h"
 #include "generator/target/d3d9/generate/vertex.h"
@@ -29,10 +30,14 @@ Result<ir::Program> straighten(const ir::Program& program, passes::FirstHitForm 
                                std::vector<std::string>& notes) {
     ir::Program result = program;
     forget_forms(result.pixel.body);
+    fold_divisions(result.pixel);
     passes::PipelineOptions options;
     if (form != passes::FirstHitForm::Chain) {
         if (const auto done = passes::optimize(result.pixel, options); !done) return done.error();
-        passes::lower_first_hit(result.pixel, form);
+        const auto choose = [&](const passes::FirstHit& hit) {
+            return hit.only_whether ? passes::FirstHitForm::AnyHit : form;
+        };
+        passes::lower_first_hit(result.pixel, choose, passes::Rounding::Free);
     }
     options.unroll_all = true;
     options.flatten_all = true;

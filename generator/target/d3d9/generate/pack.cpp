@@ -144,11 +144,12 @@ const std::vector<Sweep> plans[] = {
 std::vector<std::vector<Graph>> pack(const Graph& graph, const Limits& limits,
                                      const std::vector<int>& uniform_registers, int evaluations) {
     std::vector<std::vector<Graph>> result;
-    for (const std::vector<Sweep>& plan : plans) {
-        Packing packing(graph, limits, uniform_registers, evaluations);
-        for (const Sweep& sweep : plan) packing.sweep(sweep);
-        result.push_back(packing.take());
-    }
+    for (const Graph& start : {with_wide_reductions(graph), graph})
+        for (const std::vector<Sweep>& plan : plans) {
+            Packing packing(start, limits, uniform_registers, evaluations);
+            for (const Sweep& sweep : plan) packing.sweep(sweep);
+            result.push_back(packing.take());
+        }
     return result;
 }
 

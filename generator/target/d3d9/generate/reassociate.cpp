@@ -1,5 +1,6 @@
 // Algebra that saves slots where its pattern occurs; each rule changes rounding alone.
 #include <algorithm>
+#include <optional>
 
 #include "generator/target/d3d9/generate/lower.h"
 
@@ -16,6 +17,7 @@ class Rules {
         for (std::size_t i = 0; i < count; ++i) {
             constant_last(static_cast<int>(i));
             common_term_of_choice(static_cast<int>(i));
+            difference_to_choice(static_cast<int>(i));
             common_factor(static_cast<int>(i));
         }
     }
@@ -60,10 +62,15 @@ class Rules {
         return node.kind == Node::Kind::Op && node.op == op && !node.saturate &&
                !node.operands.empty();
     }
-    // The node that alone gives the operand, component for component, and that nothing else reads.
+    // The node that alone gives the operand, component for component; of own() nothing else reads
+    // it.
     int own(const Operand& operand, Opcode op) {
+        const int index = whole(operand, op);
+        return index >= 0 && users_[static_cast<std::size_t>(index)] == 1 ? index : -1;
+    }
+    int whole(const Operand& operand, Opcode op) {
         const int index = operand.lanes[0].node;
-        if (!is_op(index, op) || users_[static_cast<std::size_t>(index)] != 1) return -1;
+        if (!is_op(index, op)) return -1;
         if (at(index).width != static_cast<int>(operand.lanes.size())) return -1;
         for (std::size_t k = 0; k < operand.lanes.size(); ++k)
             if (operand.lanes[k] != Lane{index, static_cast<int>(k)}) return -1;
@@ -136,6 +143,46 @@ class Rules {
                 at(index).operands = {chosen, c};
                 return;
             }
+    }
+
+    // x - (g >= 0 ? x : y) = g >= 0 ? 0 : a - b for x = a + c and y = b + c
+    void difference_to_choice(int index) {
+        if (!is_op(index, Opcode::Add)) return;
+        for (std::size_t side = 0; side < 2; ++side) {
+            const Operand chosen = at(index).operands[side], x = at(index).operands[1 - side];
+            const int choice = own(chosen, Opcode::Cmp);
+            if (choice < 0 || !chosen.negate || x.negate) continue;
+            for (std::size_t same : {1u, 2u}) {
+                if (at(choice).operands[same] != x) continue;
+                const Operand y = at(choice).operands[3 - same];
+                const auto difference = difference_of_sums(x, y);
+                if (!difference) continue;
+                const Operand zero{std::vector<Lane>(x.lanes.size(), Lane{constant(0), 0}), false};
+                Node result = at(choice);
+                result.operands[same] = zero;
+                result.operands[3 - same] = *difference;
+                at(index).op = Opcode::Cmp;
+                at(index).operands = result.operands;
+                return;
+            }
+        }
+    }
+    // x - y where both are sums with a term in common, y read here alone.
+    std::optional<Operand> difference_of_sums(const Operand& x, const Operand& y) {
+        const int first = whole(x, Opcode::Add), second = own(y, Opcode::Add);
+        if (first < 0 || second < 0 || y.negate) return std::nullopt;
+        for (std::size_t i = 0; i < 2; ++i)
+            for (std::size_t k = 0; k < 2; ++k) {
+                if (at(first).operands[i] != at(second).operands[k]) continue;
+                Node difference = at(second);
+                difference.operands = {at(first).operands[1 - i],
+                                       signed_by(at(second).operands[1 - k], true)};
+                const int made = add(std::move(difference));
+                Operand result;
+                for (int j = 0; j < at(made).width; ++j) result.lanes.push_back({made, j});
+                return result;
+            }
+        return std::nullopt;
     }
 
     // x (u d + v) + u s = u (x d + s) + x v for uniforms u and v, which no instruction may read

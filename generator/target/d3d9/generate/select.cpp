@@ -104,8 +104,11 @@ void simplify(Graph& graph) {
             if (live[i] == 0) graph.nodes[i].operands.clear();
     };
     drop_dead();
-    reassociate(graph);
-    drop_dead();
+    // A second time for what the first brings together.
+    for (int round = 0; round < 2; ++round) {
+        reassociate(graph);
+        drop_dead();
+    }
     form_saturations(graph);
     drop_dead();
 }
