@@ -5,7 +5,7 @@ namespace intaglio::measure {
 namespace {
 
 vulkan::Draw base_draw(const check::Program& shaders, const Textures& textures, int width,
-                       int height) {
+                       int height, const PassLink& link) {
     vulkan::Draw draw;
     // link_to_spirv names every entry point main, whatever the text called it.
     draw.vertex.spirv = shaders.vertex;
@@ -13,8 +13,11 @@ vulkan::Draw base_draw(const check::Program& shaders, const Textures& textures, 
     draw.textures = {{"height_map", &textures.height},
                      {"normal_map", &textures.normal},
                      {"colour_map", &textures.colour}};
+    draw.nearest = shaders.nearest;
+    if (link.before) draw.textures["displaced_map"] = link.before;
     draw.width = width;
     draw.height = height;
+    draw.target_format = link.target;
     return draw;
 }
 
@@ -22,11 +25,12 @@ vulkan::Draw base_draw(const check::Program& shaders, const Textures& textures, 
 
 Result<vulkan::Program> prepare_quad(const vulkan::Device& device, const check::Program& shaders,
                                      const Textures& textures, double scale, int width, int height,
-                                     const Look& look) {
+                                     const Look& look, const PassLink& link) {
     const vulkan::Mesh quad = vulkan::quad();
-    vulkan::Draw draw = base_draw(shaders, textures, width, height);
+    vulkan::Draw draw = base_draw(shaders, textures, width, height, link);
     draw.mesh = &quad;
     draw.uniforms = uniforms_of({}, {}, scale, textures.height.width, textures.height.height, look);
+    draw.uniforms.insert(link.uniforms.begin(), link.uniforms.end());
     return vulkan::Program::prepare(device, draw);
 }
 
@@ -39,10 +43,11 @@ Status aim(vulkan::Program& program, Direction view, Direction light) {
 
 Result<vulkan::Program> prepare_mesh(const vulkan::Device& device, const check::Program& shaders,
                                      const Textures& textures, double scale, int width, int height,
-                                     const MeshView& view, const Look& look) {
-    vulkan::Draw draw = base_draw(shaders, textures, width, height);
+                                     const MeshView& view, const Look& look, const PassLink& link) {
+    vulkan::Draw draw = base_draw(shaders, textures, width, height, link);
     draw.mesh = &view.mesh;
     draw.uniforms = uniforms_of({}, {}, scale, textures.height.width, textures.height.height, look);
+    draw.uniforms.insert(link.uniforms.begin(), link.uniforms.end());
     draw.uniforms["view_projection"] = {view.camera.view_projection.begin(),
                                         view.camera.view_projection.end()};
     draw.uniforms["eye"] = {view.camera.eye[0], view.camera.eye[1], view.camera.eye[2], 1};

@@ -22,11 +22,18 @@ struct Textures {
           colour(colour_texture(set)) {}
 };
 
+// What one pass of a split surface needs beside the maps.
+struct PassLink {
+    const vulkan::Texture* before = nullptr;  // the picture of the pass before
+    vulkan::Texture::Format target = vulkan::Texture::Format::Rgba32Float;
+    std::map<std::string, std::vector<float>> uniforms = {};  // beside those of the draw
+};
+
 // A quad over [0, 1]^2 of texture space, seen from infinity: every pixel has the same view and
 // light.
 Result<vulkan::Program> prepare_quad(const vulkan::Device& device, const check::Program& shaders,
                                      const Textures& textures, double scale, int width, int height,
-                                     const Look& look = {});
+                                     const Look& look = {}, const PassLink& link = {});
 // Turns the eye and the light of a prepared quad.
 Status aim(vulkan::Program& program, Direction view, Direction light);
 
@@ -38,6 +45,7 @@ struct MeshView {
 };
 Result<vulkan::Program> prepare_mesh(const vulkan::Device& device, const check::Program& shaders,
                                      const Textures& textures, double scale, int width, int height,
-                                     const MeshView& view, const Look& look = {});
+                                     const MeshView& view, const Look& look = {},
+                                     const PassLink& link = {});
 
 }  // namespace intaglio::measure
