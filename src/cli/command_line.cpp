@@ -131,6 +131,16 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
         });
     }
     {
+        auto options = std::make_shared<ExplainOptions>();
+        CLI::App* command = app.add_subcommand(
+            "explain", "Who spends the slots of a Direct3D 9 variant, by step and line");
+        add_variant(*command, options->variant);
+        command->add_flag("--json", options->json, "For programs");
+        command->callback([&chosen, &catalogue, options] {
+            chosen = [&, options] { return explain(catalogue, *options); };
+        });
+    }
+    {
         auto options = std::make_shared<RunOptions>();
         CLI::App* command =
             app.add_subcommand("run", "One picture on a Vulkan device, without a window");

@@ -49,6 +49,13 @@ struct ValidateOptions {
 };
 Status validate(const dsl::Catalogue& catalogue, const ValidateOptions& options);
 
+struct ExplainOptions {
+    VariantOptions variant;
+    bool json = false;
+};
+// Says who spends the slots; of a refused variant too, which is no error here.
+Status explain(const dsl::Catalogue& catalogue, const ExplainOptions& options);
+
 // Which maps a surface wears.
 struct MapOptions {
     std::string height, normal, colour;  // files; empty: made from the heights

@@ -72,8 +72,7 @@ std::string bytes_of(const check::SpirvWords& words) {
 
 }  // namespace
 
-Result<Variant> make_variant(const dsl::Catalogue& catalogue, const VariantRequest& request,
-                             const EmitOptions& options) {
+Result<Recorded> record_variant(const dsl::Catalogue& catalogue, const VariantRequest& request) {
     const Result<const Target*> target = target_of(request);
     if (!target) return target.error();
     if (Status status = check_loops(request, **target); !status) return status.error();
@@ -81,12 +80,19 @@ Result<Variant> make_variant(const dsl::Catalogue& catalogue, const VariantReque
     if (!surface) return surface.error();
     Result<ir::Program> program = record_program(*surface, request);
     if (!program) return program.error();
+    return Recorded{*target, std::move(*program)};
+}
+
+Result<Variant> make_variant(const dsl::Catalogue& catalogue, const VariantRequest& request,
+                             const EmitOptions& options) {
+    Result<Recorded> recorded = record_variant(catalogue, request);
+    if (!recorded) return recorded.error();
     EmitOptions emit_options = options;
     emit_options.count_reads = request.count_reads;
-    Result<Emitted> emitted = emit(*program, text_target(**target), emit_options);
+    Result<Emitted> emitted = emit(recorded->program, text_target(*recorded->target), emit_options);
     if (!emitted) return emitted.error();
-    return Variant{request, *target, std::move(*program), std::move(emitted->vertex),
-                   std::move(emitted->pixel)};
+    return Variant{request, recorded->target, std::move(recorded->program),
+                   std::move(emitted->vertex), std::move(emitted->pixel)};
 }
 
 Result<Product> product_of(const Variant& variant, ir::Stage stage, Form form) {

@@ -44,6 +44,13 @@ struct Product {
     bool binary = false;
 };
 
+// A surface as recorded for a target, before any pass.
+struct Recorded {
+    const Target* target;
+    ir::Program program;
+};
+Result<Recorded> record_variant(const dsl::Catalogue& catalogue, const VariantRequest& request);
+
 // Records, optimises and prints both stages.  Errors: unknown names with the nearest right one,
 // knobs out of range, and what the target refuses.
 Result<Variant> make_variant(const dsl::Catalogue& catalogue, const VariantRequest& request,

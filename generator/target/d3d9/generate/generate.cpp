@@ -71,7 +71,8 @@ Result<PixelStage> attempt(const ir::Program& recorded, Profile profile,
     return result;
 }
 
-Result<PixelStage> best_pixel_stage(const ir::Program& recorded, Profile profile) {
+// The smallest, whether it fits or not.
+Result<PixelStage> smallest_pixel_stage(const ir::Program& recorded, Profile profile) {
     if (!is_pixel(profile))
         return input_error("d3d9-stage",
                            fmt::format("{} is no profile of pixel shaders; those are ps_2_0, "
@@ -84,7 +85,6 @@ Result<PixelStage> best_pixel_stage(const ir::Program& recorded, Profile profile
         if (!stage) return stage.error();
         if (!best || better(stage->candidate, best->candidate)) best = std::move(*stage);
     }
-    if (!best->candidate.fits()) return refuse(recorded.name, best->candidate);
     for (const ir::Sampler& sampler : recorded.pixel.samplers)
         if (sampler.filter == ir::Sampler::Filter::Nearest)
             best->candidate.notes.push_back(
@@ -113,22 +113,39 @@ void append(std::vector<std::string>* notes, const std::vector<std::string>& mor
 
 Result<Shader> generate_pixel(const ir::Program& recorded, Profile profile,
                               std::vector<std::string>* notes) {
-    auto stage = best_pixel_stage(recorded, profile);
+    auto stage = smallest_pixel_stage(recorded, profile);
     if (!stage) return stage.error();
+    if (!stage->candidate.fits()) return refuse(recorded.name, stage->candidate);
     append(notes, stage->candidate.notes);
     return std::move(stage->candidate.shader);
 }
 
-Result<Stages> generate_program(const ir::Program& recorded, Profile profile) {
-    auto pixel = best_pixel_stage(recorded, profile);
+Result<Attempt> attempt_program(const ir::Program& recorded, Profile profile) {
+    auto pixel = smallest_pixel_stage(recorded, profile);
     if (!pixel) return pixel.error();
-    auto vertex = vertex_stage(pixel->program, read_by(*pixel),
-                               profile == Profile::ps_3_0 ? Profile::vs_3_0 : Profile::vs_2_0);
-    if (!vertex) return vertex.error();
-    Stages stages{std::move(vertex->shader), std::move(pixel->candidate.shader),
-                  std::move(pixel->candidate.notes)};
-    append(&stages.notes, vertex->notes);
-    return stages;
+    Attempt result;
+    Candidate& candidate = pixel->candidate;
+    if (candidate.fits()) {
+        auto vertex = vertex_stage(pixel->program, read_by(*pixel),
+                                   profile == Profile::ps_3_0 ? Profile::vs_3_0 : Profile::vs_2_0);
+        if (!vertex) return vertex.error();
+        append(&candidate.notes, vertex->notes);
+        result.vertex = std::move(vertex->shader);
+    } else {
+        result.refusal = refuse(recorded.name, candidate);
+        result.only_slots = candidate.failure.has_value();
+    }
+    result.pixel = std::move(candidate.shader);
+    result.notes = std::move(candidate.notes);
+    return result;
+}
+
+Result<Stages> generate_program(const ir::Program& recorded, Profile profile) {
+    auto attempt = attempt_program(recorded, profile);
+    if (!attempt) return attempt.error();
+    if (attempt->refusal) return *attempt->refusal;
+    return Stages{std::move(*attempt->vertex), std::move(attempt->pixel),
+                  std::move(attempt->notes)};
 }
 
 Result<Shader> generate_vertex(const ir::Program& recorded, Profile profile,

@@ -9,6 +9,7 @@
 // the shader must know.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,17 @@ struct Stages {
 // Both stages, for ps_2_0, ps_2_a and ps_2_b with vs_2_0, for ps_3_0 with vs_3_0.  Lowerings of
 // first-hit searches are tried, the fewest arithmetic slots of the pixel stage win.
 Result<Stages> generate_program(const ir::Program& recorded, Profile pixel);
+
+// The same, with what does not fit: for those who ask where the slots went.
+struct Attempt {
+    Shader pixel;
+    std::optional<Shader> vertex;       // nothing where the pixel stage is refused
+    std::optional<Diagnostic> refusal;  // of the pixel stage
+    bool only_slots =
+        false;  // refused for want of registers: of the pixel stage only slots are right
+    std::vector<std::string> notes;
+};
+Result<Attempt> attempt_program(const ir::Program& recorded, Profile pixel);
 
 // The pixel stage alone: that of generate_program.
 Result<Shader> generate_pixel(const ir::Program& recorded, Profile pixel,

@@ -1,0 +1,145 @@
+// `intaglio explain`: who spends the slots of a Direct3D 9 variant.
+#include "src/variant/explain.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "src/cli/commands.h"
+
+namespace intaglio::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string place_of(const std::string& file, int line) {
+    return file.empty() ? "unknown line" : fmt::format("{}:{}", file, line);
+}
+
+std::string step_name(const std::string& step) { return step.empty() ? "outside steps" : step; }
+
+// A row of the headroom whose numbers are true.
+bool is_known(const ExplainedStage& stage, const d3d9::Headroom& row) {
+    return !stage.only_slots || row.resource.find("slots") != std::string_view::npos;
+}
+
+constexpr std::size_t name_width = 52;
+
+std::string spent_text(const d3d9::Explanation& explanation) {
+    std::string text =
+        fmt::format("  {:<{}} arithmetic  texture\n", "slots by step and line", name_width);
+    for (const d3d9::Spent& step : explanation.steps) {
+        text += fmt::format("  {:<{}} {:>10} {:>8}\n", step_name(step.step), name_width,
+                            step.slots.arithmetic, step.slots.texture);
+        for (const d3d9::Spent& line : explanation.lines)
+            if (line.step == step.step)
+                text += fmt::format("    {:<{}} {:>10} {:>8}\n", place_of(line.file, line.line),
+                                    name_width - 2, line.slots.arithmetic, line.slots.texture);
+    }
+    return text;
+}
+
+std::string headroom_text(const ExplainedStage& stage) {
+    std::string text =
+        fmt::format("  {:<30} {:>6} {:>6} {:>6}\n", "resource", "used", "limit", "left");
+    for (const d3d9::Headroom& row : stage.explanation.headroom)
+        if (is_known(stage, row))
+            text += fmt::format("  {:<30} {:>6} {:>6} {:>6}{}\n", row.resource, row.used, row.limit,
+                                row.left(), row.left() < 0 ? "  over" : "");
+    if (stage.only_slots)
+        text += "  registers and levels are not known: none were found that fit\n";
+    return text;
+}
+
+std::string reads_text(const ExplainedStage& stage) {
+    if (stage.explanation.reads.empty()) return {};
+    std::string text = fmt::format("  {:<7} {:<16} {}\n", stage.only_slots ? "" : "level",
+                                   "texture read", "step and line");
+    for (const d3d9::TextureRead& read : stage.explanation.reads)
+        text += fmt::format("  {:<7} {:<16} {}, {}\n",
+                            stage.only_slots ? std::string() : fmt::format("{}", read.level),
+                            read.sampler, step_name(read.step), place_of(read.file, read.line));
+    return text;
+}
+
+std::string text_of(const ExplainedVariant& variant, const std::string& target) {
+    std::string text = fmt::format("{} on {}", variant.name, target);
+    for (std::size_t i = 0; i < variant.settings.size(); ++i)
+        text += fmt::format("{}{}", i == 0 ? "; " : ", ", variant.settings[i]);
+    text += "\n";
+    if (variant.refusal) text += fmt::format("refused: {}\n", variant.refusal->message);
+    for (const ExplainedStage& stage : variant.stages) {
+        const d3d9::Slots& slots = stage.explanation.slots;
+        text += fmt::format("\n{} stage, {}: {} arithmetic and {} texture slots\n",
+                            is_pixel(stage.profile) ? "pixel" : "vertex", name_of(stage.profile),
+                            slots.arithmetic, slots.texture);
+        for (const std::string& part :
+             {spent_text(stage.explanation), headroom_text(stage), reads_text(stage)})
+            if (!part.empty()) text += "\n" + part;
+    }
+    return text;
+}
+
+ordered_json json_of(const d3d9::Spent& spent) {
+    return {{"step", spent.step},
+            {"file", spent.file},
+            {"line", spent.line},
+            {"arithmetic", spent.slots.arithmetic},
+            {"texture", spent.slots.texture}};
+}
+
+ordered_json json_of(const ExplainedStage& stage) {
+    const d3d9::Explanation& explanation = stage.explanation;
+    ordered_json json = {
+        {"profile", name_of(stage.profile)},    {"arithmetic", explanation.slots.arithmetic},
+        {"texture", explanation.slots.texture}, {"steps", ordered_json::array()},
+        {"lines", ordered_json::array()},       {"resources", ordered_json::array()},
+        {"reads", ordered_json::array()}};
+    for (const d3d9::Spent& step : explanation.steps)
+        json["steps"].push_back({{"step", step.step},
+                                 {"arithmetic", step.slots.arithmetic},
+                                 {"texture", step.slots.texture}});
+    for (const d3d9::Spent& line : explanation.lines) json["lines"].push_back(json_of(line));
+    for (const d3d9::Headroom& row : explanation.headroom)
+        if (is_known(stage, row))
+            json["resources"].push_back({{"resource", row.resource},
+                                         {"used", row.used},
+                                         {"limit", row.limit},
+                                         {"left", row.left()}});
+    for (const d3d9::TextureRead& read : explanation.reads) {
+        ordered_json row = {{"sampler", read.sampler}};
+        if (!stage.only_slots) row["level"] = read.level;
+        row.update({{"step", read.step}, {"file", read.file}, {"line", read.line}});
+        json["reads"].push_back(std::move(row));
+    }
+    return json;
+}
+
+ordered_json json_of(const ExplainedVariant& variant, const std::string& target) {
+    ordered_json json = {{"surface", variant.name},
+                         {"target", target},
+                         {"settings", variant.settings},
+                         {"fits", !variant.refusal},
+                         {"stages", ordered_json::array()}};
+    if (variant.refusal)
+        json["refusal"] = {{"code", variant.refusal->code}, {"message", variant.refusal->message}};
+    for (const ExplainedStage& stage : variant.stages) json["stages"].push_back(json_of(stage));
+    return json;
+}
+
+}  // namespace
+
+Status explain(const dsl::Catalogue& catalogue, const ExplainOptions& options) {
+    const Result<VariantRequest> request = request_of(options.variant);
+    if (!request) return request.error();
+    const Result<ExplainedVariant> variant = explain_variant(catalogue, *request);
+    if (!variant) return variant.error();
+    for (const std::string& note : variant->notes) fmt::print(stderr, "note: {}\n", note);
+    const std::string& target = options.variant.target;
+    return write_product(
+        "-", options.json ? json_of(*variant, target).dump(2) + "\n" : text_of(*variant, target),
+        false);
+}
+
+}  // namespace intaglio::cli
