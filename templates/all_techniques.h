@@ -6,8 +6,15 @@
 namespace intaglio::templates {
 
 dsl::Entry<dsl::Search> search_none();
-dsl::Entry<dsl::Search> search_parallax_occlusion();
+dsl::Entry<dsl::Search> search_parallax();
+dsl::Entry<dsl::Search> search_parallax_limited();
+dsl::Entry<dsl::Search> search_parallax_iterative();
 dsl::Entry<dsl::Search> search_steep_parallax();
+dsl::Entry<dsl::Search> search_parallax_occlusion();
+dsl::Entry<dsl::Search> search_relief();
+dsl::Entry<dsl::Search> search_relief_secant();
+dsl::Entry<dsl::Search> search_contact_refinement();
+dsl::Entry<dsl::Search> search_exact();
 dsl::Entry<dsl::Shadow> shadow_none();
 dsl::Entry<dsl::Shadow> shadow_march();
 dsl::Entry<dsl::Shadow> shadow_fur_depth();

@@ -8,7 +8,14 @@
 // round the count, so that the last step ends on the floor.  `nyquist` chooses the mip level on
 // which a step is at most one texel, the page's guard against missed features, in place of the
 // relief's own level.
+//
+// `stride` says what is constant: the step's height, its length on the map (the page's second form,
+// whose arithmetic is not right: docs/techniques/steep_parallax.md), or nothing, the march going
+// from texel to texel, as the page would have it.
+#include <algorithm>
+
 #include "templates/all_techniques.h"
+#include "templates/search/texel_walk.h"
 
 namespace intaglio::templates {
 namespace {
@@ -24,10 +31,34 @@ class SteepParallax : public Search {
     Knob<int> nyquist{this,       "nyquist",
                       0,          at_least{0},
                       at_most{1}, "1: read on the mip level where a step is at most one texel"};
+    Knob<int> stride{
+        this,       "stride",
+        0,          at_least{0},
+        at_most{2}, "0: steps of equal height; 1: of equal length on the map; 2: texel by texel"};
+    Knob<float> texels_per_step{this,           "texels_per_step", 1.0f,
+                                at_least{0.25}, at_most{64},       "their length with stride = 1"};
     Loop march{"march", max_steps};
 
     Hit find(const Relief& relief, const Ray& ray) const override {
-        const float1 steps = step_count(ray);
+        return stride == 2 ? walk_texels(relief, ray) : march_steps(relief, ray);
+    }
+
+    Status check() const override {
+        if (min_steps > max_steps)
+            return input_error("knob-relation",
+                               "min_steps is above max_steps; steps run from min_steps (straight "
+                               "down) to max_steps (grazing)");
+        return Done{};
+    }
+
+    void schedule(Schedule& s) const override {
+        s.on("ps_2_*").unroll(march);
+        s.on("*").loop(march);
+    }
+
+  private:
+    Hit march_steps(const Relief& relief, const Ray& ray) const {
+        const float1 steps = step_count(relief, ray);
         const float1 step = let("step", 1.0f / steps);
         const float1 level =
             nyquist.value() == 1 ? level_below_nyquist(relief, ray, step) : relief.level;
@@ -45,25 +76,54 @@ class SteepParallax : public Search {
         return {let("displaced", ray.at(t)), height, height >= 1 - t};
     }
 
-    Status check() const override {
-        if (min_steps > max_steps)
-            return input_error("knob-relation",
-                               "min_steps is above max_steps; steps run from min_steps (straight "
-                               "down) to max_steps (grazing)");
-        return Done{};
+    // Texels as columns: the ray meets a column's side where it enters it, or its top further on.
+    // A ray that crosses more than max_steps texels ends there; with nyquist = 1 the columns are
+    // those of the mip level on which it does not.
+    Hit walk_texels(const Relief& relief, const Ray& ray) const {
+        const float1 level = nyquist.value() == 1 ? level_within_reach(relief, ray) : relief.level;
+        const float2 grid =
+            nyquist.value() == 1
+                ? let("grid", max(floor(relief.map_size * exp2(-level) + 0.01f), float1(1.0f)))
+                : relief.map_size;
+        const TexelWalk texels = TexelWalk::along(ray, grid, 0);
+
+        Step walking("march", "Go from texel to texel until the ray meets a column.");
+        var<float1> t{"t", 0.0f}, height{"height", 0.0f};
+        var<float2> crossed{"crossed", float2(0.0f, 0.0f)};
+        var<bool1> found{"found", false};
+        for ([[maybe_unused]] int1 i : march) {
+            const float2 next = let("next", texels.next(crossed));
+            const float1 leave = let("leave", min(min(next.x(), next.y()), 1.0f));
+            height = relief.height_at_level(texels.near_texel(crossed), level);
+            const float1 meeting = let("meeting", max(t, 1 - height));
+            found = meeting <= leave;
+            t = min(meeting, leave);
+            march.until(meeting <= leave || leave >= 1.0f);
+            crossed = TexelWalk::over_nearer(crossed, next);
+        }
+        return {let("displaced", ray.at(t)), height, found};
     }
 
-    void schedule(Schedule& s) const override {
-        s.on("ps_2_*").unroll(march);
-        s.on("*").loop(march);
-    }
-
-  private:
-    float1 step_count(const Ray& ray) const {
+    float1 step_count(const Relief& relief, const Ray& ray) const {
         if (min_steps == max_steps) return static_cast<float>(max_steps.value());
+        if (stride == 1) {
+            const float2 texels = let("texels", abs(ray.reach * relief.map_size));
+            const float1 wanted = max(texels.x(), texels.y()) * (1.0f / texels_per_step.value());
+            return let("steps", max(min(-floor(-wanted), static_cast<float>(max_steps.value())),
+                                    static_cast<float>(min_steps.value())));
+        }
         const float1 wanted = lerp(float1(static_cast<float>(max_steps.value())),
                                    static_cast<float>(min_steps.value()), saturate(ray.view.z()));
         return let("steps", floor(wanted + 0.5f));
+    }
+
+    // The first level on which the ray crosses at most max_steps columns, two of them in part.
+    float1 level_within_reach(const Relief& relief, const Ray& ray) const {
+        const float2 texels = let("texels", abs(ray.reach * relief.map_size));
+        const float whole = static_cast<float>(std::max(max_steps.value() - 2, 1));
+        // A little more than its share, so that the logarithm's rounding cannot cost a column.
+        const float1 share = (texels.x() + texels.y()) * (1.001f / whole);
+        return let("level", -floor(-log2(max(share, 1.0f))));
     }
 
     // log2 of the texels that one step crosses, and never below the finest level.
