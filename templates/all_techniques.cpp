@@ -9,9 +9,10 @@ dsl::Catalogue all_techniques() {
                      search_parallax_iterative(), search_steep_parallax(),
                      search_parallax_occlusion(), search_relief(), search_relief_secant(),
                      search_contact_refinement(), search_exact()},
-        .shadows = {shadow_none(), shadow_march(), shadow_fur_depth()},
-        .normals = {normal_map()},
-        .shadings = {shading_phong()},
+        .shadows = {shadow_none(), shadow_march(), shadow_soft(), shadow_occlusion_profile(),
+                    shadow_exact(), shadow_fur_depth()},
+        .normals = {normal_map(), normal_blinn(), normal_smoothed(), normal_from_hit()},
+        .shadings = {shading_phong(), shading_lambert(), shading_emboss(), shading_ambient_only()},
         .outputs = {output_colour(), output_displaced()},
         .vertex_works = {vertex_tangent_space()},
         .presets =

@@ -15,7 +15,9 @@ Relief make_relief(const Surface& surface) {
         packed ? sampler2D("normal_map", "tangent-space normal in rgb, height in alpha")
                : sampler2D("height_map", "height in red: 1 is the polygon, 0 the deepest");
     const float2 map_size = uniform<2>("map_size", "size of the height map in texels");
-    return {map, packed, relief_scale(), map_size, float1(surface.relief->level.value())};
+    Relief relief{map, packed, relief_scale(), map_size, float1(surface.relief->level.value())};
+    relief.known_level = surface.relief->level.value();
+    return relief;
 }
 
 Ray make_ray(const Surface& surface, const Relief& relief, float2 uv, float3 view) {
@@ -46,7 +48,8 @@ float3 shade(const Surface& surface, const Relief& relief, const Hit& hit, float
     const sampler2D colour_map("colour_map", "albedo");
     const float3 albedo =
         let("albedo", colour_map.sample_grad(hit.uv, footprint.ddx_uv, footprint.ddy_uv).xyz());
-    return surface.shading->shade({normal, view, light, albedo, visibility});
+    return surface.shading->shade(
+        {normal, view, light, albedo, visibility, relief, hit, footprint});
 }
 
 }  // namespace intaglio::dsl

@@ -1,11 +1,19 @@
 // Relief and ray.
 #include "generator/dsl/technique.h"
 
+#include <cmath>
+
 namespace intaglio::dsl {
 
 float1 Relief::height_at_level(float2 uv, float1 mip_level, Place place) const {
     const float4 texel = map.sample_level(uv, mip_level, place);
-    return in_section(in_alpha ? texel.w() : texel.x());
+    return in_section(height_of(texel));
+}
+
+float2 Relief::level_size() const {
+    const float coarser = std::floor(known_level);
+    if (coarser == 0) return map_size;
+    return let("level_size", max(floor(map_size * std::exp2(-coarser)), 1.0f));
 }
 
 // Section k of n runs from height 1 - k / n down to 1 - (k + 1) / n.

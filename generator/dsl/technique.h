@@ -47,12 +47,17 @@ struct Relief {
     float1
         level;  // mip level of every height read: fixed, so that reads in loops need no derivatives
     int section = 0, sections = 1;  // the slab that is searched, 0 the top one, and how many
+    float known_level = 0;          // the knob that `level` is
 
     // Height at a texture coordinate: in [0, 1] where there is one section.
     float1 height(float2 uv, Place place = Place::here()) const {
         return height_at_level(uv, level, place);
     }
     float1 height_at_level(float2 uv, float1 mip_level, Place place = Place::here()) const;
+    // Texels of the mip level that is read; between two levels, of the finer one.
+    float2 level_size() const;
+    // The height in a texel of `map`, of the whole relief.
+    float1 height_of(float4 texel) const { return in_alpha ? texel.w() : texel.x(); }
     // A height of the whole relief as the section sees it, and back.
     float1 in_section(float1 whole) const;
     float1 in_whole(float1 in_section) const;
@@ -96,11 +101,15 @@ struct Footprint {
     float2 ddx_uv, ddy_uv;
 };
 
-// What a shading model sees.
+// What a shading model sees.  What it does not look at is not computed: a shading without normals
+// costs no normal read.
 struct Fragment {
     float3 normal, view, light;  // unit, tangent space
     float3 albedo;
     float1 visibility;  // of the light: 0 in shadow, 1 lit
+    const Relief& relief;
+    const Hit& hit;
+    const Footprint& footprint;
 };
 
 // Where does the view ray meet the relief first?  find() may be given one section of the relief and

@@ -41,6 +41,7 @@ std::map<std::string, std::vector<float>> uniforms_of(Direction view, Direction 
         {"ambient", {look.ambient.begin(), look.ambient.end()}},
         {"light_colour", {look.light_colour.begin(), look.light_colour.end()}},
         {"gloss", {look.gloss}},
+        {"map_tangents", {1, 0, 0, 1}},
     };
 }
 

@@ -1,0 +1,51 @@
+// Emboss bump mapping: the height where we are less the height a little towards the light is the
+// slope that the light sees.  Schlag, "Fast Embossing Effects on Raster Image Data", Graphics Gems
+// IV, 1994; named among their forerunners by Brawley and Tatarchuk, ShaderX3, 2004.
+//
+// It is Blinn's N' = N - h_u scale P_u - h_v scale P_v dotted with L and not normalised,
+//     N'.L = L.z - scale (h_u L.x + h_v L.y),
+// with the bracket as one difference along L.xy.  So it needs no normal, and errs by what 1 / |N'|
+// would have dimmed: it is too bright on steep slopes.
+#include "templates/all_techniques.h"
+
+namespace intaglio::templates {
+namespace {
+
+using namespace dsl;
+
+class Emboss : public Shading {
+  public:
+    Knob<float> distance{
+        this,          "emboss_distance",
+        1.0f,          at_least{0.125},
+        at_most{64.0}, "texels between the two heights, for a light at the horizon"};
+
+    float3 shade(const Fragment& fragment) const override {
+        const float3 ambient = uniform<3>("ambient", "ambient light, linear rgb");
+        const float3 light_colour = uniform<3>("light_colour", "colour of the light, linear rgb");
+        const Relief& relief = fragment.relief;
+        const auto height = [&](float2 uv) {
+            return relief.height_of(
+                relief.map.sample_grad(uv, fragment.footprint.ddx_uv, fragment.footprint.ddy_uv));
+        };
+        const float1 per_unit = let(
+            "per_unit", max(relief.map_size.x(), relief.map_size.y()) * (1.0f / distance.value()));
+        const float2 towards_light =
+            let("towards_light", fragment.hit.uv + fragment.light.xy() / per_unit);
+        const float1 fall = let("fall", height(fragment.hit.uv) - height(towards_light));
+        const float1 slope = let("slope", fall * (relief.scale * per_unit));
+        const float1 diffuse = let("diffuse", select(fragment.light.z() > 0.0f,
+                                                     saturate(fragment.light.z() + slope), 0.0f));
+        return fragment.albedo * (ambient + light_colour * (diffuse * fragment.visibility));
+    }
+};
+
+}  // namespace
+
+dsl::Entry<dsl::Shading> shading_emboss() {
+    return dsl::entry<dsl::Shading, Emboss>(
+        "emboss", "Diffuse light from the difference of two heights along the light",
+        "Schlag 1994");
+}
+
+}  // namespace intaglio::templates
