@@ -11,8 +11,8 @@ namespace intaglio::passes {
 using namespace ir;
 
 FirstHitLoop::FirstHitLoop(const Module& module, const Definitions& definitions,
-                           const Instruction& loop)
-    : module_(module), definitions_(definitions), loop_(loop) {
+                           const Instruction& loop, bool zero_products)
+    : module_(module), definitions_(definitions), loop_(loop), zero_products_(zero_products) {
     const std::vector<ValueId>& parameters = loop.regions[0].parameters;
     for (std::size_t k = 1; k < parameters.size(); ++k) parameters_[parameters[k]] = k - 1;
     refusal_ = find_exit();
@@ -151,6 +151,8 @@ bool FirstHitLoop::matches(ValueId outside, ValueId inside, int iteration) const
     if (is_index(inside)) return false;
     const Definition& a = definitions_[outside];
     const Instruction& b = instruction(inside);
+    if (zero_products_ && (b.op == Op::Add || b.op == Op::Sub) && is_zero(b.operands[1], iteration))
+        return matches(outside, b.operands[0], iteration);
     if (a.op != b.op || a.operand_count != b.operands.size() || a.slot != b.slot ||
         a.element != b.element || a.lanes != b.lanes ||
         module_.type(outside) != module_.type(inside))
@@ -158,6 +160,23 @@ bool FirstHitLoop::matches(ValueId outside, ValueId inside, int iteration) const
     for (std::size_t i = 0; i < b.operands.size(); ++i)
         if (!matches(a.operands[i], b.operands[i], iteration)) return false;
     return true;
+}
+
+// Zero in each component, or a product with such a value.
+bool FirstHitLoop::is_zero(ValueId value, int iteration) const {
+    if (const auto bits = constant_at(value, iteration)) {
+        const auto width = static_cast<std::size_t>(module_.type(value).width);
+        return std::all_of(bits->begin(), bits->begin() + static_cast<std::ptrdiff_t>(width),
+                           [](std::uint32_t component) { return component << 1 == 0; });
+    }
+    if (!is_inside(value) || parameter(value) || is_index(value)) return false;
+    const Instruction& computed = instruction(value);
+    const auto zero = [&](ValueId operand) { return is_zero(operand, iteration); };
+    if (computed.op == Op::Mul)
+        return std::any_of(computed.operands.begin(), computed.operands.end(), zero);
+    if (computed.op == Op::Swizzle || computed.op == Op::Compose)
+        return std::all_of(computed.operands.begin(), computed.operands.end(), zero);
+    return false;
 }
 
 bool FirstHitLoop::matches_constant(ValueId outside, ValueId inside,

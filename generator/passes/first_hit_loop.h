@@ -20,8 +20,9 @@ namespace intaglio::passes {
 class FirstHitLoop {
   public:
     // Both must outlive this, and `definitions` must know the loop's body and what is before it.
+    // `zero_products`: x + 0 y counts as x, which differs where y is no number.
     FirstHitLoop(const ir::Module& module, const Definitions& definitions,
-                 const ir::Instruction& loop);
+                 const ir::Instruction& loop, bool zero_products = false);
 
     // Why the loop is no such search; empty if it is one.
     const std::string& refusal() const { return refusal_; }
@@ -61,12 +62,14 @@ class FirstHitLoop {
     bool is_known_outside(ir::ValueId value) const;
     bool is_initially(std::size_t k) const;
     bool matches(ir::ValueId outside, ir::ValueId inside, int iteration) const;
+    bool is_zero(ir::ValueId inside, int iteration) const;
     bool matches_constant(ir::ValueId outside, ir::ValueId inside,
                           const ir::ConstantBits& bits) const;
 
     const ir::Module& module_;
     const Definitions& definitions_;
     const ir::Instruction& loop_;
+    const bool zero_products_;
     const ir::Instruction* exit_ = nullptr;
     std::map<ir::ValueId, const ir::Instruction*> instructions_;
     std::map<ir::ValueId, std::size_t> parameters_;

@@ -437,7 +437,7 @@ class Lowerer {
         FirstHit hit{loop.loop.name, loop.loop.trip_count, false, FirstHitForm::Chain, {}};
         // An inner loop that was lowered used values in other numbers than counted at the start.
         uses_.resize(module_.values.size(), 1);
-        const FirstHitLoop search(module_, definitions_, loop);
+        const FirstHitLoop search(module_, definitions_, loop, rounding_ == Rounding::Free);
         hit.refusal = search.refusal();
         const auto any = hit.refusal.empty() ? any_hit_of(search) : std::nullopt;
         hit.only_whether = any.has_value();

@@ -59,9 +59,9 @@ using ChooseFirstHit = std::function<FirstHitForm(const FirstHit&)>;
 // values numbered anew.
 //
 // With Rounding::Free results may differ by what a place that is 2^-22 of the ray away changes,
-// which allows more keys: those that end within 2^-22 of zero count as ending there.  And a result
-// that differs in the first iteration, where the search has nothing behind it, is told by the
-// values at the hit.
+// which allows more keys: those that end within 2^-22 of zero count as ending there.  Zero times
+// what is read or passed is zero.  And a result that differs in the first iteration, where the
+// search has nothing behind it, is told by the values at the hit.
 enum class Rounding { Exact, Free };
 std::vector<FirstHit> lower_first_hit(ir::Module& module, const ChooseFirstHit& choose,
                                       Rounding rounding = Rounding::Exact);

@@ -239,13 +239,13 @@ std::vector<Size> sizes() {
          33,
          9},
         {"parallax_occlusion", {{"taps", "8"}, {"ray_per_vertex", "1"}}, Profile::ps_2_0, 58, 11},
-        steep("16", Profile::ps_2_0, 45, 17),
-        steep("18", Profile::ps_2_0, 51, 19),
-        steep("24", Profile::ps_2_b, 65, 25),
+        steep("16", Profile::ps_2_0, 44, 17),
+        steep("18", Profile::ps_2_0, 50, 19),
+        steep("24", Profile::ps_2_b, 64, 25),
         {"fur",
          {{"min_steps", "12"}, {"max_steps", "12"}, {"ray_per_vertex", "1"}},
          Profile::ps_2_0,
-         63,
+         62,
          15},
     };
 }

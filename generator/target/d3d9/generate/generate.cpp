@@ -10,10 +10,8 @@
 #include "generator/passes/pipeline.h"
 #include "generator/passes/rewrite.h"
 #include "generator/target/d3d9/generate/candidate.h"
-#include "generator/target/d3d9/generate/finish.h"
 #include "generator/target/d3d9/generate/fold_divisions.h"
 #include "generator/target/d3d9/generate/lower.h"
-#include "generator/target/d3d9/generate/pack.h"
 #include "generator/target/d3d9/generate/vertex.h"
 
 namespace intaglio::d3d9 {
@@ -61,11 +59,6 @@ Result<PixelStage> attempt(const ir::Program& recorded, Profile profile,
     const ir::Module& module = program->pixel;
     auto graph = lower(module, profile, notes);
     if (!graph) return graph.error();
-    const Limits& limits = limits_of(profile);
-    int next = 0;
-    const std::vector<int> uniforms = assign_uniforms(module, *graph, next);
-    const Graph wide = with_wide_output(*graph);
-    if (cost_of(wide, limits, uniforms) < cost_of(*graph, limits, uniforms)) *graph = wide;
     PixelStage result{best_of(module, *graph, profile), std::move(*program)};
     result.candidate.notes = std::move(notes);
     return result;

@@ -22,7 +22,11 @@ void simplify(Graph& graph);
 // Moves constants, common terms and common factors to where they save slots; rounding differs.
 void reassociate(Graph& graph);
 
-// A constant component of an output computed together with a sum that is its neighbour.
-Graph with_wide_output(const Graph& graph);
+// Clears the operands of what no output needs, so that it counts as no user.
+void drop_dead(Graph& graph);
+
+// The graph with components of an output that are factor * x + term for one x, constants among
+// them, as one mad: one graph for each such x.
+std::vector<Graph> with_wide_output(const Graph& graph);
 
 }  // namespace intaglio::d3d9

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "generator/target/d3d9/generate/lower.h"
 #include "generator/target/d3d9/ops.h"
 
 namespace intaglio::d3d9 {
@@ -139,17 +140,35 @@ const std::vector<Sweep> plans[] = {
     {{everything}},
 };
 
+// The cheapest of the graph and what rewriting it whole gives.
+Graph best_start(const Graph& graph, const Limits& limits,
+                 const std::vector<int>& uniform_registers) {
+    std::vector<Graph> starts = {graph};
+    for (Graph& wide : with_wide_output(graph)) starts.push_back(std::move(wide));
+    const std::size_t count = starts.size();
+    for (std::size_t i = 0; i < count; ++i) starts.push_back(with_wide_reductions(starts[i]));
+    std::size_t best = 0;
+    int least = 0;
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+        const int cost = cost_of(starts[i], limits, uniform_registers);
+        if (i > 0 && cost >= least) continue;
+        least = cost;
+        best = i;
+    }
+    return std::move(starts[best]);
+}
+
 }  // namespace
 
 std::vector<std::vector<Graph>> pack(const Graph& graph, const Limits& limits,
                                      const std::vector<int>& uniform_registers, int evaluations) {
+    const Graph start = best_start(graph, limits, uniform_registers);
     std::vector<std::vector<Graph>> result;
-    for (const Graph& start : {with_wide_reductions(graph), graph})
-        for (const std::vector<Sweep>& plan : plans) {
-            Packing packing(start, limits, uniform_registers, evaluations);
-            for (const Sweep& sweep : plan) packing.sweep(sweep);
-            result.push_back(packing.take());
-        }
+    for (const std::vector<Sweep>& plan : plans) {
+        Packing packing(start, limits, uniform_registers, evaluations);
+        for (const Sweep& sweep : plan) packing.sweep(sweep);
+        result.push_back(packing.take());
+    }
     return result;
 }
 

@@ -14,10 +14,9 @@ int cost_of(const Graph& graph, const Limits& limits, const std::vector<int>& un
 Graph with_wide_reductions(const Graph& graph);
 
 // Joins instructions as long as that saves slots, by each of a few plans.  In each plan's list a
-// result is cheaper than the one before; the first is the graph itself, or that with wide
-// reductions.  The first improvement
-// found is taken, in the plan's order, so the result is deterministic; `evaluations` bounds the
-// work of each of a plan's sweeps.
+// result is cheaper than the one before; the first is the graph, with wide reductions or outputs
+// where these are cheaper.  The first improvement found is taken, in the plan's order, so the
+// result is deterministic; `evaluations` bounds the work of each of a plan's sweeps.
 std::vector<std::vector<Graph>> pack(const Graph& graph, const Limits& limits,
                                      const std::vector<int>& uniform_registers, int evaluations);
 

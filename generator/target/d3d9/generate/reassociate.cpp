@@ -21,36 +21,8 @@ class Rules {
             common_factor(static_cast<int>(i));
         }
     }
-    // A constant beside a sum in an output, as one instruction: (a + x, c) = x (1, 0) + (a, c).
-    void widen_output() {
-        for (Operand& output : graph_.outputs)
-            for (std::size_t j = 0; j < output.lanes.size(); ++j)
-                for (std::size_t k = 0; k < output.lanes.size(); ++k)
-                    if (widen(output, j, k)) return;
-    }
 
   private:
-    bool widen(Operand& output, std::size_t j, std::size_t k) {
-        const int index = output.lanes[j].node;
-        const Lane constant_lane = output.lanes[k];
-        if (graph_.node(constant_lane).kind != Node::Kind::Constant || !is_op(index, Opcode::Add) ||
-            at(index).width != 1 || users_[static_cast<std::size_t>(index)] != 1)
-            return false;
-        for (std::size_t side = 0; side < 2; ++side) {
-            const Operand a = at(index).operands[side], x = at(index).operands[1 - side];
-            if (!is_constant(a) || a.negate || is_constant(x)) continue;
-            const Lane one{constant(0x3F800000u), 0}, zero{constant(0), 0};
-            at(index).op = Opcode::Mad;
-            at(index).width = 2;
-            at(index).operands = {{{x.lanes[0], x.lanes[0]}, x.negate},
-                                  {{one, zero}, false},
-                                  {{a.lanes[0], constant_lane}, false}};
-            output.lanes[k] = {index, 1};
-            return true;
-        }
-        return false;
-    }
-
     Node& at(int index) { return graph_.nodes[static_cast<std::size_t>(index)]; }
     int add(Node node) {
         graph_.nodes.push_back(std::move(node));
@@ -217,11 +189,5 @@ class Rules {
 }  // namespace
 
 void reassociate(Graph& graph) { Rules(graph).run(); }
-
-Graph with_wide_output(const Graph& graph) {
-    Graph result = graph;
-    Rules(result).widen_output();
-    return result;
-}
 
 }  // namespace intaglio::d3d9

@@ -6,6 +6,7 @@
 #include <set>
 #include <tuple>
 
+#include "generator/target/d3d9/generate/lower.h"
 #include "generator/target/d3d9/generate/pack.h"
 
 namespace intaglio::d3d9 {
@@ -178,12 +179,7 @@ Graph with_wide_reductions(const Graph& graph) {
     for (std::size_t i = 0; i < graph.nodes.size(); ++i)
         if (is_extreme(graph.nodes[i]) && !inner.contains(static_cast<int>(i)))
             Reduction(result, users, static_cast<int>(i));
-    // What the wide ones replace is read no more.
-    std::vector<char> live(result.nodes.size());
-    for (const int index : order_of(result, Order::Depth))
-        live[static_cast<std::size_t>(index)] = 1;
-    for (std::size_t i = 0; i < result.nodes.size(); ++i)
-        if (live[i] == 0) result.nodes[i].operands.clear();
+    drop_dead(result);
     return result;
 }
 

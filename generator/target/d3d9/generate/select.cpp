@@ -93,24 +93,23 @@ void form_mads(Graph& graph) {
 
 }  // namespace
 
+void drop_dead(Graph& graph) {
+    std::vector<char> live(graph.nodes.size());
+    for (const int index : order_of(graph, Order::Depth)) live[static_cast<std::size_t>(index)] = 1;
+    for (std::size_t i = 0; i < graph.nodes.size(); ++i)
+        if (live[i] == 0) graph.nodes[i].operands.clear();
+}
+
 void simplify(Graph& graph) {
     form_mads(graph);
-    // What is dead must not count as a user.
-    const auto drop_dead = [&] {
-        std::vector<char> live(graph.nodes.size());
-        for (const int index : order_of(graph, Order::Depth))
-            live[static_cast<std::size_t>(index)] = 1;
-        for (std::size_t i = 0; i < graph.nodes.size(); ++i)
-            if (live[i] == 0) graph.nodes[i].operands.clear();
-    };
-    drop_dead();
+    drop_dead(graph);
     // A second time for what the first brings together.
     for (int round = 0; round < 2; ++round) {
         reassociate(graph);
-        drop_dead();
+        drop_dead(graph);
     }
     form_saturations(graph);
-    drop_dead();
+    drop_dead(graph);
 }
 
 }  // namespace intaglio::d3d9
