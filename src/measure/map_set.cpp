@@ -27,7 +27,18 @@ Result<maps::Image> normals_with_heights(const maps::Image& heights, double scal
     return maps::with_height_in_alpha(*normals, heights);
 }
 
-// Four floats a texel; missing colour channels repeat the first, missing alpha is 1.
+vulkan::Texture texture_of(const maps::Image& image, vulkan::Texture::Format format) {
+    vulkan::Texture texture;
+    texture.width = image.width;
+    texture.height = image.height;
+    for (const maps::Image& level : maps::mip_chain(image))
+        texture.levels.push_back(rgba_of(level));
+    texture.format = format;
+    return texture;
+}
+
+}  // namespace
+
 std::vector<float> rgba_of(const maps::Image& image) {
     std::vector<float> texels;
     texels.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
@@ -51,18 +62,6 @@ vulkan::Texture::Format format_of(const maps::Image& image, Filtering filtering)
     return image.bits == 8 ? vulkan::Texture::Format::Rgba8Unorm
                            : vulkan::Texture::Format::Rgba16Unorm;
 }
-
-vulkan::Texture texture_of(const maps::Image& image, vulkan::Texture::Format format) {
-    vulkan::Texture texture;
-    texture.width = image.width;
-    texture.height = image.height;
-    for (const maps::Image& level : maps::mip_chain(image))
-        texture.levels.push_back(rgba_of(level));
-    texture.format = format;
-    return texture;
-}
-
-}  // namespace
 
 reference::HeightField MapSet::height_field(reference::FilterWeights weights) const {
     reference::HeightField field;

@@ -43,6 +43,11 @@ enum class Filtering {
     Native,  // as the file's precision: RGBA8 is filtered with 8-bit weights on lavapipe
 };
 
+// Four floats a texel; missing colour channels repeat the first, missing alpha is 1.
+std::vector<float> rgba_of(const maps::Image& image);
+// The format that holds the image's precision, or float32.
+vulkan::Texture::Format format_of(const maps::Image& image, Filtering filtering);
+
 // Textures as the device takes them, with all mip levels.
 vulkan::Texture height_texture(const MapSet& set, Filtering filtering);
 vulkan::Texture normal_texture(const MapSet& set, Filtering filtering);

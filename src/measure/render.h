@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "src/check/frontend.h"
+#include "src/measure/baked_maps.h"
 #include "src/measure/map_set.h"
 #include "src/measure/view.h"
 #include "src/vulkan/camera.h"
@@ -12,14 +13,17 @@
 
 namespace intaglio::measure {
 
-// The textures of one map set, uploaded with every program that reads them.
+// The textures of one map set, uploaded with every program that reads them.  What techniques want
+// baked is baked when the first program reads it.
 struct Textures {
     vulkan::Texture height, normal, colour;
+    std::shared_ptr<BakedMaps> baked;
 
     Textures(const MapSet& set, Filtering filtering)
         : height(height_texture(set, filtering)),
           normal(normal_texture(set, filtering)),
-          colour(colour_texture(set)) {}
+          colour(colour_texture(set)),
+          baked(std::make_shared<BakedMaps>(set.heights, filtering)) {}
 };
 
 // What one pass of a split surface needs beside the maps.
