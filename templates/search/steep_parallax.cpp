@@ -9,9 +9,10 @@
 // which a step is at most one texel, the page's guard against missed features, in place of the
 // relief's own level.
 //
-// `stride` says what is constant: the step's height, its length on the map (the page's second form,
-// whose arithmetic is not right: docs/techniques/steep_parallax.md), or nothing, the march going
-// from texel to texel, as the page would have it.
+// `stride` says what is constant: the step's height, or its length on the map (the page's second
+// form, whose arithmetic is not right: docs/techniques/steep_parallax.md).  Or nothing is, and the
+// march goes from texel to texel, as the page would have it: to the next line between texel
+// centres, where the filtered relief has its edges, or with texels as columns.
 #include <algorithm>
 
 #include "templates/all_techniques.h"
@@ -31,16 +32,21 @@ class SteepParallax : public Search {
     Knob<int> nyquist{this,       "nyquist",
                       0,          at_least{0},
                       at_most{1}, "1: read on the mip level where a step is at most one texel"};
-    Knob<int> stride{
-        this,       "stride",
-        0,          at_least{0},
-        at_most{2}, "0: steps of equal height; 1: of equal length on the map; 2: texel by texel"};
+    Knob<int> stride{this,
+                     "stride",
+                     0,
+                     at_least{0},
+                     at_most{3},
+                     "0: steps of equal height; 1: of equal length on the map; 2: to the next line "
+                     "between texel centres; 3: from texel to texel, each a column"};
     Knob<float> texels_per_step{this,           "texels_per_step", 1.0f,
                                 at_least{0.25}, at_most{64},       "their length with stride = 1"};
     Loop march{"march", max_steps};
 
     Hit find(const Relief& relief, const Ray& ray) const override {
-        return stride == 2 ? walk_texels(relief, ray) : march_steps(relief, ray);
+        if (stride < 2) return march_steps(relief, ray);
+        const float1 level = nyquist.value() == 1 ? level_within_reach(relief, ray) : relief.level;
+        return stride == 2 ? walk_lines(relief, ray, level) : walk_columns(relief, ray, level);
     }
 
     Status check() const override {
@@ -76,17 +82,32 @@ class SteepParallax : public Search {
         return {let("displaced", ray.at(t)), height, height >= 1 - t};
     }
 
-    // Texels as columns: the ray meets a column's side where it enters it, or its top further on.
-    // A ray that crosses more than max_steps texels ends there; with nyquist = 1 the columns are
-    // those of the mip level on which it does not.
-    Hit walk_texels(const Relief& relief, const Ray& ray) const {
-        const float1 level = nyquist.value() == 1 ? level_within_reach(relief, ray) : relief.level;
-        const float2 grid =
-            nyquist.value() == 1
-                ? let("grid", max(floor(relief.map_size * exp2(-level) + 0.01f), float1(1.0f)))
-                : relief.map_size;
-        const TexelWalk texels = TexelWalk::along(ray, grid, 0);
+    // A ray that crosses more lines or texels than max_steps ends there, and says so; with nyquist
+    // = 1 they are those of the mip level on which it does not.
+    float2 grid_at(const Relief& relief, float1 level) const {
+        if (nyquist.value() == 0) return relief.map_size;
+        // 0.01: the rounding of exp2.
+        return let("grid", max(floor(relief.map_size * exp2(-level) + 0.01f), float1(1.0f)));
+    }
 
+    Hit walk_lines(const Relief& relief, const Ray& ray, float1 level) const {
+        const TexelWalk cells = TexelWalk::along(ray, grid_at(relief, level), 0.5f);
+        Step walking("march", "Go from line to line until the ray is no longer above the relief.");
+        var<float1> t{"t", 0.0f}, height{"height", relief.height_at_level(ray.uv, level)};
+        var<float2> crossed{"crossed", float2(0.0f, 0.0f)};
+        for ([[maybe_unused]] int1 i : march) {
+            march.until(height >= 1 - t);
+            const float2 next = let("next", cells.next(crossed));
+            t = min(min(next.x(), next.y()), 1.0f);
+            height = relief.height_at_level(ray.at(t), level);
+            crossed = TexelWalk::over_nearer(crossed, next);
+        }
+        return {let("displaced", ray.at(t)), height, height >= 1 - t};
+    }
+
+    // The ray meets a column's side where it enters the texel, or its top further on.
+    Hit walk_columns(const Relief& relief, const Ray& ray, float1 level) const {
+        const TexelWalk texels = TexelWalk::along(ray, grid_at(relief, level), 0);
         Step walking("march", "Go from texel to texel until the ray meets a column.");
         var<float1> t{"t", 0.0f}, height{"height", 0.0f};
         var<float2> crossed{"crossed", float2(0.0f, 0.0f)};
@@ -117,11 +138,11 @@ class SteepParallax : public Search {
         return let("steps", floor(wanted + 0.5f));
     }
 
-    // The first level on which the ray crosses at most max_steps columns, two of them in part.
+    // The first level on which the ray crosses at most max_steps cells, two of them in part.
     float1 level_within_reach(const Relief& relief, const Ray& ray) const {
         const float2 texels = let("texels", abs(ray.reach * relief.map_size));
         const float whole = static_cast<float>(std::max(max_steps.value() - 2, 1));
-        // A little more than its share, so that the logarithm's rounding cannot cost a column.
+        // A little more than its share, so that the logarithm's rounding cannot cost a cell.
         const float1 share = (texels.x() + texels.y()) * (1.001f / whole);
         return let("level", -floor(-log2(max(share, 1.0f))));
     }
