@@ -27,6 +27,7 @@ struct VirtualSource {
     bool negate = false;
     bool absolute = false;  // before the sign
     Wanted wanted;          // Constant
+    friend bool operator==(const VirtualSource&, const VirtualSource&) = default;
 };
 
 struct VirtualInstruction {
@@ -39,9 +40,10 @@ struct VirtualInstruction {
     std::vector<VirtualSource> sources;
     ir::Origin origin;
     // Code with loops alone, see flow_code.h.
-    Comparison comparison = Comparison::None;     // break_comp
-    int repeats = 0;                              // rep
+    Comparison comparison = Comparison::None;  // break_comp
+    int repeats = 0;                           // rep
     Swizzle sampler_swizzle = identity_swizzle;
+    friend bool operator==(const VirtualInstruction&, const VirtualInstruction&) = default;
 };
 
 // The positions of its operands that an instruction looks at.
@@ -50,6 +52,7 @@ Mask positions_read(const VirtualInstruction& instruction);
 struct Code {
     std::vector<VirtualInstruction> instructions;
     std::vector<Mask> lanes;  // of each virtual register: those that are ever written
+    friend bool operator==(const Code&, const Code&) = default;
 };
 
 // Which component each lane sees, so that position k gets component lanes[k] (-1: any); nothing if
@@ -62,8 +65,8 @@ std::optional<Swizzle> find_swizzle(const std::array<int, 4>& lanes, const Limit
 Code place(const Graph& graph, const std::vector<int>& order, const Limits& limits,
            const std::vector<int>& uniform_registers);
 
-// Outputs of vertex shaders take lanes, signs and any arithmetic: what a mov to an output alone reads
-// is written there instead, and the mov goes.
+// Outputs of vertex shaders take lanes, signs and any arithmetic: what a mov to an output alone
+// reads is written there instead, and the mov goes.
 void write_outputs_directly(Code& code);
 
 // Definitions for the constants that instructions want; sets the sources' index and swizzle.

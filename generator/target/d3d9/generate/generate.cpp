@@ -10,34 +10,33 @@
 #include "generator/passes/pipeline.h"
 #include "generator/passes/rewrite.h"
 #include "generator/target/d3d9/generate/candidate.h"
+#include "generator/target/d3d9/generate/flow.h"
 #include "generator/target/d3d9/generate/fold_divisions.h"
+#include "generator/target/d3d9/generate/loop_plan.h"
 #include "generator/target/d3d9/generate/lower.h"
 #include "generator/target/d3d9/generate/vertex.h"
 
 namespace intaglio::d3d9 {
 namespace {
 
-void forget_forms(ir::Region& region) {
-    passes::for_each_instruction(region, [](ir::Instruction& instruction) {
-        instruction.loop.form = ir::LoopForm::Unspecified;
-    });
-}
-
-// Both stages optimised, loops and branches gone.
-Result<ir::Program> straighten(const ir::Program& program, passes::FirstHitForm form,
+// Both stages optimised, branches gone, and loops but those that the plan keeps.
+Result<ir::Program> straighten(const ir::Program& program, const LoopPlan& plan, Profile profile,
                                std::vector<std::string>& notes) {
     ir::Program result = program;
-    forget_forms(result.pixel.body);
+    const std::set<std::string> rolled = apply(plan, result.pixel, profile);
     fold_divisions(result.pixel);
     passes::PipelineOptions options;
-    if (form != passes::FirstHitForm::Chain) {
+    if (plan.form != passes::FirstHitForm::Chain) {
         if (const auto done = passes::optimize(result.pixel, options); !done) return done.error();
         const auto choose = [&](const passes::FirstHit& hit) {
-            return hit.only_whether ? passes::FirstHitForm::AnyHit : form;
+            if (rolled.count(hit.loop) != 0) return passes::FirstHitForm::Chain;
+            return hit.only_whether ? passes::FirstHitForm::AnyHit : plan.form;
         };
         passes::lower_first_hit(result.pixel, choose, passes::Rounding::Free);
     }
-    options.unroll_all = true;
+    unroll_others(result.pixel);
+    apply(LoopPlan{}, result.vertex, Profile::ps_2_0);
+    unroll_others(result.vertex);
     options.flatten_all = true;
     auto more = passes::optimize_program(result, options);
     if (!more) return more.error();
@@ -51,12 +50,17 @@ struct PixelStage {
     ir::Program program;
 };
 
-Result<PixelStage> attempt(const ir::Program& recorded, Profile profile,
-                           passes::FirstHitForm form) {
+Result<PixelStage> attempt(const ir::Program& recorded, Profile profile, const LoopPlan& plan) {
     std::vector<std::string> notes;
-    auto program = straighten(recorded, form, notes);
+    auto program = straighten(recorded, plan, profile, notes);
     if (!program) return program.error();
     const ir::Module& module = program->pixel;
+    if (profile == Profile::ps_3_0) {
+        auto candidate = generate_flow(module, profile, notes);
+        if (!candidate) return candidate.error();
+        candidate->notes = std::move(notes);
+        return PixelStage{std::move(*candidate), std::move(*program)};
+    }
     auto graph = lower(module, profile, notes);
     if (!graph) return graph.error();
     PixelStage result{best_of(module, *graph, profile), std::move(*program)};
@@ -72,9 +76,8 @@ Result<PixelStage> smallest_pixel_stage(const ir::Program& recorded, Profile pro
                                        "ps_2_a, ps_2_b and ps_3_0",
                                        name_of(profile)));
     std::optional<PixelStage> best;
-    for (const passes::FirstHitForm form :
-         {passes::FirstHitForm::PackedRefetch, passes::FirstHitForm::Chain}) {
-        auto stage = attempt(recorded, profile, form);
+    for (const LoopPlan& plan : loop_plans(recorded.pixel, profile)) {
+        auto stage = attempt(recorded, profile, plan);
         if (!stage) return stage.error();
         if (!best || better(stage->candidate, best->candidate)) best = std::move(*stage);
     }
@@ -119,7 +122,7 @@ Result<Attempt> attempt_program(const ir::Program& recorded, Profile profile) {
     Attempt result;
     Candidate& candidate = pixel->candidate;
     if (candidate.fits()) {
-        auto vertex = vertex_stage(pixel->program, read_by(*pixel),
+        auto vertex = vertex_stage(pixel->program, recorded.vertex, read_by(*pixel),
                                    profile == Profile::ps_3_0 ? Profile::vs_3_0 : Profile::vs_2_0);
         if (!vertex) return vertex.error();
         append(&candidate.notes, vertex->notes);
@@ -148,14 +151,14 @@ Result<Shader> generate_vertex(const ir::Program& recorded, Profile profile,
                                                      "are vs_2_0 and vs_3_0",
                                                      name_of(profile)));
     std::vector<std::string> more;
-    auto program = straighten(recorded, passes::FirstHitForm::Chain, more);
+    auto program = straighten(recorded, LoopPlan{}, profile, more);
     if (!program) return program.error();
     const Profile pixel = profile == Profile::vs_3_0 ? Profile::ps_3_0 : Profile::ps_2_0;
     std::vector<Interpolant> all;
     const auto places = interpolant_places(program->pixel, pixel);
     for (std::size_t i = 0; i < places.size(); ++i)
         all.push_back({program->pixel.inputs[i].name, places[i]});
-    auto vertex = vertex_stage(*program, all, profile);
+    auto vertex = vertex_stage(*program, recorded.vertex, all, profile);
     if (!vertex) return vertex.error();
     append(notes, more);
     append(notes, vertex->notes);
