@@ -30,8 +30,12 @@ Result<SpirvWords> to_spirv(const Source& source);
 struct Program {
     SpirvWords vertex;
     SpirvWords pixel;
-    // Textures that are to be sampled nearest: SPIR-V does not say it, so whoever made the text does.
+    // Textures that are to be sampled nearest: SPIR-V does not say it, so whoever made the text
+    // does.
     std::set<std::string> nearest{};
+    // Textures to be given without mipmaps: read at level 0, where the language leaves the level to
+    // the hardware.
+    std::set<std::string> one_level{};
 };
 
 // Both stages of a draw, so that they agree in locations, bindings and uniform blocks.  GLSL

@@ -101,10 +101,8 @@ Result<Product> product_of(const Variant& variant, ir::Stage stage, Form form) {
     if (stage == ir::Stage::Pixel && !variant.target->pixel_stage)
         return input_error(
             "no-stage",
-            fmt::format("{} is a profile of vertex shaders; the pixel stage is "
-                        "{}",
-                        target,
-                        target == "vs_3_0" ? "ps_3_0's" : "that of ps_2_0, ps_2_a or ps_2_b"));
+            fmt::format("{} is a profile of vertex shaders; the pixel stage is that of {}", target,
+                        target == "vs_3_0" ? "ps_3_0" : "ps_2_0, ps_2_a or ps_2_b"));
     if (form == Form::Bytecode && !artifact.bytecode.bytes.empty())
         return Product{artifact.bytecode.bytes, artifact.bytecode.extension, true};
     if (form == Form::Bytecode && target != "spirv")
@@ -192,12 +190,26 @@ Result<check::Program> link_text(const Variant& variant) {
     return program;
 }
 
+// Textures of which the surface itself says the level.
+std::set<std::string> read_by_level(const ir::Module& module, const ir::Region& region) {
+    std::set<std::string> names;
+    for (const ir::Instruction& instruction : region.body) {
+        if (instruction.op == ir::Op::SampleLevel)
+            names.insert(module.samplers[static_cast<std::size_t>(instruction.slot)].name);
+        for (const ir::Region& inner : instruction.regions)
+            names.merge(read_by_level(module, inner));
+    }
+    return names;
+}
+
 }  // namespace
 
 Result<check::Program> link_variant(const Variant& variant) {
     Result<check::Program> program =
         profile_of(*variant.target) ? link_bytecode(variant) : link_text(variant);
     if (!program) return program;
+    if (!variant.target->capabilities.texture_levels)
+        program->one_level = read_by_level(variant.program.pixel, variant.program.pixel.body);
     for (const ir::Module* module : {&variant.program.vertex, &variant.program.pixel})
         for (const ir::Sampler& sampler : module->samplers)
             if (sampler.filter == ir::Sampler::Filter::Nearest)

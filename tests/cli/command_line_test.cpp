@@ -124,6 +124,93 @@ TEST_F(CommandLine, EmitsFunctions) {
                    "target-function");
 }
 
+TEST_F(CommandLine, EmitsAssemblyAndBytecode) {
+    const std::string surface = "parallax_occlusion,output=displaced";
+    const Outcome text = run({"emit", surface, "-T", "ps_2_0"});
+    EXPECT_EQ(text.code, 0) << text.err;
+    EXPECT_THAT(text.out, HasSubstr("\nps_2_0\n// uniform float1 scale : c0\n"));
+    EXPECT_THAT(text.out, HasSubstr("of 64   arithmetic slots\n"));
+    EXPECT_THAT(text.out,
+                HasSubstr("// Walk down the ray until a sample of the height profile rises above"));
+    EXPECT_THAT(text.err, HasSubstr("note: height_map is read by texld"));
+    const Outcome bytes =
+        run({"emit", surface, "-T", "ps_2_0", "--as", "bytecode", "-o", path("p.pso")});
+    EXPECT_EQ(bytes.code, 0) << bytes.err;
+    EXPECT_EQ(contents(path("p.pso")).substr(0, 4), std::string("\x00\x02\xff\xff", 4));
+    EXPECT_THAT(run({"emit", surface, "-T", "ps_3_0", "--stage", "vertex"}).out,
+                HasSubstr("\nvs_3_0\n"));
+    EXPECT_THAT(run({"emit", surface, "-T", "vs_2_0"}).out, HasSubstr("\nvs_2_0\n"));
+}
+
+TEST_F(CommandLine, RefusesWhatAProfileHasNot) {
+    const std::pair<std::vector<std::string>, const char*> cases[] = {
+        {{"emit", "fur", "-T", "vs_2_0", "--stage", "pixel"},
+         "error: vs_2_0 is a profile of vertex shaders; the pixel stage is that of ps_2_0, ps_2_a "
+         "or ps_2_b [no-stage]\n"},
+        {{"emit", "search=none", "-T", "ps_2_0", "--as", "function"},
+         "error: ps_2_0 has no text to paste a function into [target-function]\n"},
+        {{"emit", "search=none", "-T", "hlsl_2_0", "--as", "bytecode"},
+         "error: hlsl_2_0 is text; bytecode is for the targets ps_*, vs_* and spirv "
+         "[no-bytecode]\n"},
+        {{"emit", "parallax_occlusion", "-T", "ps_2_0", "--loop", "march=loop"},
+         "error: the loop march cannot stay a loop: ps_2_0 has none [target-limit]\n"},
+        {{"explain", "fur", "-T", "glsl_450"},
+         "error: explain counts the slots of ps_2_0, ps_2_a, ps_2_b, ps_3_0, vs_2_0 and vs_3_0; "
+         "what glsl_450 costs, `intaglio validate` says [not-explained]\n"},
+        {{"run", "fur", "-T", "vs_3_0", "--maker", "fur", "-o", path("p.png")},
+         "error: vs_3_0 is a vertex stage alone; run the surface on ps_3_0, which comes with it "
+         "[not-runnable]\n"},
+    };
+    for (const auto& [arguments, sentence] : cases) {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.code, 2);
+        EXPECT_EQ(outcome.out, "");
+        EXPECT_EQ(outcome.err, sentence);
+    }
+    const Outcome long_one = expect_refused(
+        {"emit", "parallax_occlusion", "-T", "ps_2_0", "-D", "taps=16"}, "d3d9-limit");
+    EXPECT_THAT(long_one.err, HasSubstr("arithmetic slots"));
+    EXPECT_THAT(long_one.err, HasSubstr("more than the 64 it has for parallax_occlusion: the step "
+                                        "'march' takes"));
+    EXPECT_THAT(long_one.err, HasSubstr("templates/search/parallax_occlusion.cpp:"));
+}
+
+TEST_F(CommandLine, ExplainsWhoSpendsTheSlots) {
+    const Outcome fits = run({"explain", "parallax_occlusion,output=displaced", "-T", "ps_2_0"});
+    EXPECT_EQ(fits.code, 0) << fits.err;
+    EXPECT_THAT(fits.out, HasSubstr("\npixel stage, ps_2_0: "));
+    EXPECT_THAT(fits.out, HasSubstr("\nvertex stage, vs_2_0: "));
+    EXPECT_THAT(fits.out, HasSubstr("    templates/search/parallax_occlusion.cpp:"));
+    EXPECT_THAT(fits.out, HasSubstr("  temporary registers "));
+    EXPECT_THAT(fits.out, Not(HasSubstr("  over\n")));
+    const Outcome refused = run({"explain", "parallax_occlusion", "-T", "ps_2_0", "-D", "taps=16"});
+    EXPECT_EQ(refused.code, 0) << refused.err;
+    EXPECT_THAT(refused.out, HasSubstr("\nrefused: ps_2_0 needs "));
+    EXPECT_THAT(refused.out, HasSubstr("  over\n"));
+    const Outcome json =
+        run({"explain", "parallax_occlusion", "-T", "ps_2_0", "-D", "taps=16", "--json"});
+    EXPECT_THAT(json.out, HasSubstr("\"fits\": false"));
+    EXPECT_THAT(json.out, HasSubstr("\"step\": \"march\""));
+    expect_refused({"explain", "parallax_occlusion", "-T", "ps_2"}, "unknown-target");
+}
+
+TEST_F(CommandLine, DrawsByWayOfBytecode) {
+    for (const char* target : {"ps_3_0", "glsl_450"})
+        EXPECT_EQ(run({"run", "parallax_occlusion", "-T", target, "--maker", "cobbles", "--size",
+                       "32x32", "--validation", "-o", path(std::string(target) + ".png")})
+                      .code,
+                  0)
+            << target;
+    const auto mine = intaglio::maps::read_png(path("ps_3_0.png")),
+               theirs = intaglio::maps::read_png(path("glsl_450.png"));
+    ASSERT_TRUE(mine.ok() && theirs.ok());
+    // Eight bits hide most of what mad and rcp round otherwise.
+    int far = 0;
+    for (std::size_t i = 0; i < mine->texels.size(); ++i)
+        far += std::abs(mine->texels[i] - theirs->texels[i]) > 1.5f / 255 ? 1 : 0;
+    EXPECT_LE(far, static_cast<int>(mine->texels.size() / 100));
+}
+
 TEST_F(CommandLine, DumpsEveryStepOfTheIr) {
     const Outcome outcome = run({"emit", "parallax_occlusion", "-T", "glsl_450", "--loop",
                                  "march=unroll", "--dump-ir=all"});
@@ -280,6 +367,12 @@ TEST_F(CommandLine, BakesNormals) {
     const auto normals = intaglio::maps::read_png(path("normal.png"));
     ASSERT_TRUE(normals.ok());
     EXPECT_EQ(normals->channels, 4);
+    for (const char* kind : {"cone", "relaxed-cone", "max-mip", "horizon", "distance",
+                             "view-dependent"})
+        EXPECT_EQ(run({"bake", kind, path("height.png"), "-o", path("baked.png")}).code, 0) << kind;
+    EXPECT_EQ(run({"bake", "phong", "--size", "64x64", "-o", path("phong.png")}).code, 0);
+    expect_refused({"bake", "horizon", path("height.png"), "-o", path("h.png"), "--azimuths", "7"},
+                   "azimuths-range");
     expect_refused({"bake", "normal", path("height.png"), "-o", path("n.png"), "--kernel", "box"},
                    "option-value");
     expect_refused({"bake", "normal", path("missing.png"), "-o", path("n.png")}, "file-missing");
@@ -289,8 +382,10 @@ TEST_F(CommandLine, ValidatesEveryTarget) {
     const Outcome outcome = run({"validate", "parallax_occlusion"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     for (const char* target : {"glsl_450", "glsl_330", "glsl_120", "essl_300", "essl_100",
-                               "hlsl_5_0", "hlsl_3_0", "hlsl_2_b", "hlsl_2_0", "spirv", "msl"})
+                               "hlsl_5_0", "hlsl_3_0", "hlsl_2_b", "hlsl_2_0", "spirv", "msl",
+                               "ps_2_0", "ps_2_a", "ps_2_b", "ps_3_0", "vs_2_0", "vs_3_0"})
         EXPECT_THAT(outcome.out, HasSubstr(target));
+    EXPECT_THAT(outcome.out, HasSubstr("dependent level"));
     EXPECT_THAT(outcome.out, HasSubstr("no SPIR-V of this language to count"));
     // What a target cannot carry fails the command only where the target was asked for.
     const Outcome steep = run({"validate", "steep_parallax"});

@@ -93,49 +93,54 @@ std::string constant_text(const Constant& constant) {
     return constant.count == 1 ? text : text + fmt::format(", {} registers", constant.count);
 }
 
-// Free text for a comment: one line, no backslash (which would join the next line to it), not
-// mistaken for our words.
-std::string comment_text(std::string text) {
+// Free text for a comment: one line, no backslash (which would join the next line to it).
+std::string one_line(std::string text) {
     for (char& c : text) {
         if (static_cast<unsigned char>(c) < ' ') c = ' ';
         if (c == '\\') c = '/';
     }
-    const std::string line = "// " + text;
-    const bool mistakable = line.starts_with(uniform_comment) || line.starts_with(profile_comment);
-    return mistakable ? "// : " + text : line;
+    return text;
 }
 
-// Writes what an instruction is for where that changes: the step with its sentence once, then the
-// lines.
+// A line of its own, not mistaken for our words.
+std::string comment_text(std::string text) {
+    const std::string line = "// " + one_line(std::move(text));
+    const bool mistakable = line.starts_with(uniform_comment) || line.starts_with(profile_comment);
+    return mistakable ? "// : " + line.substr(3) : line;
+}
+
+// What instructions are for: the sentence of a step before its first one, and for each one its step
+// and line.
 class StepComments {
   public:
     StepComments(const Shader& shader, TextBuilder& text)
         : shader_(shader), text_(text), introduced_(shader.steps.size(), false) {}
 
     void before(const ir::Origin& origin) {
-        if (origin == last_) return;
-        last_ = origin;
+        const auto step = static_cast<std::size_t>(origin.step);
+        if (origin.step < 0 || step >= shader_.steps.size() || introduced_[step]) return;
+        introduced_[step] = true;
+        if (!shader_.steps[step].comment.empty())
+            text_.line(comment_text(shader_.steps[step].comment));
+    }
+
+    // "march: templates/search/parallax_occlusion.cpp:43"; empty where nothing is known.
+    std::string beside(const ir::Origin& origin) const {
         const auto step = static_cast<std::size_t>(origin.step),
                    file = static_cast<std::size_t>(origin.file);
         const bool has_step = origin.step >= 0 && step < shader_.steps.size();
         const bool has_file = origin.file >= 0 && file < shader_.files.size();
-        if (has_step && !introduced_[step]) {
-            introduced_[step] = true;
-            if (!shader_.steps[step].comment.empty())
-                text_.line(comment_text(shader_.steps[step].comment));
-        }
-        std::string line = has_step ? shader_.steps[step].name : "";
+        std::string text = has_step ? shader_.steps[step].name : "";
         if (has_file)
-            line +=
-                fmt::format("{}{}:{}", line.empty() ? "" : ": ", shader_.files[file], origin.line);
-        if (!line.empty()) text_.line(comment_text(line));
+            text +=
+                fmt::format("{}{}:{}", text.empty() ? "" : ": ", shader_.files[file], origin.line);
+        return text.empty() ? text : "  " + one_line(text);
     }
 
   private:
     const Shader& shader_;
     TextBuilder& text_;
     std::vector<bool> introduced_;
-    ir::Origin last_;
 };
 
 void print_instructions(const Shader& shader, const AssemblyOptions& options, TextBuilder& text) {
@@ -153,8 +158,8 @@ void print_instructions(const Shader& shader, const AssemblyOptions& options, Te
             so_far.texture += slots.texture;
             const auto indent = static_cast<std::size_t>(text.column());
             const std::size_t width = slots_column > indent ? slots_column - indent : 0;
-            line =
-                fmt::format("{:<{}} ; {:>3} {:>3}", line, width, so_far.arithmetic, so_far.texture);
+            line = fmt::format("{:<{}} ; {:>3} {:>3}{}", line, width, so_far.arithmetic,
+                               so_far.texture, comments.beside(instruction.origin));
         }
         text.line(line);
         if (row.has(Trait::Opens)) text.indent(), ++depth;
@@ -212,7 +217,8 @@ std::string print(const Shader& shader, const AssemblyOptions& options) {
     for (const Declaration& declaration : shader.declarations)
         text.line(declaration_text(declaration, shader.profile));
     if (options.comments && !shader.instructions.empty())
-        text.line("// at line ends: slots so far, arithmetic and texture");
+        text.line(
+            "// Beside each instruction: slots so far, arithmetic and texture; its step and line.");
     print_instructions(shader, options, text);
     return text.take();
 }

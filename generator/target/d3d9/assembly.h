@@ -13,8 +13,9 @@
 namespace intaglio::d3d9 {
 
 struct AssemblyOptions {
-    // Steps and source lines before the instructions they cost, and at line ends the slots so far,
-    // arithmetic and texture.  The constant table is written either way.
+    // The sentence of a step before its first instruction; beside each instruction the slots so
+    // far, arithmetic and texture, and the step and source line that cost them.  The constant table
+    // is written either way.
     bool comments = true;
 };
 

@@ -40,14 +40,10 @@ void put_bindings(TextBuilder& out, const ir::Program& recorded, const Shader& s
     }
 }
 
-// "Uses 43 of 64 arithmetic slots, 9 of 32 texture slots ..."
+// One line for each resource in use.
 void put_headroom(TextBuilder& out, const Shader& shader) {
-    std::string line;
     for (const Headroom& row : headroom(shader))
-        if (row.used > 0)
-            line += fmt::format("{}{} of {} {}", line.empty() ? "Uses " : ", ", row.used, row.limit,
-                                row.resource);
-    if (!line.empty()) clike::put_comment(out, line);
+        if (row.used > 0) out.format("// {:>4} of {:<4} {}", row.used, row.limit, row.resource);
 }
 
 }  // namespace
@@ -56,7 +52,9 @@ std::string listing(const ir::Program& recorded, ir::Stage stage, const Target& 
                     const Shader& shader) {
     TextBuilder out;
     clike::put_header(out, recorded, stage, target);
+    out.line();
     put_bindings(out, recorded, shader);
+    out.line();
     put_headroom(out, shader);
     out.line();
     return out.take() + print(shader);

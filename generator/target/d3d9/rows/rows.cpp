@@ -75,11 +75,8 @@ constexpr Capabilities longer(bool gradients) {
     can.texture_reads = 512;
     return can;
 }
-constexpr Capabilities model_3 = {.loops = false,
-                                  .branches = false,
-                                  .functions = false,
-                                  .colour_targets = 4,
-                                  .interpolants = {10, 40}};
+constexpr Capabilities model_3 = {
+    .branches = false, .functions = false, .colour_targets = 4, .interpolants = {10, 40}};
 
 constexpr Target row(std::string_view name, std::string_view description, Capabilities can,
                      bool pixel_stage = true) {
@@ -104,7 +101,8 @@ const Target ps_2_b =
     row("ps_2_b", "Direct3D 9 assembly and bytecode: 512 slots, 32 temporaries, with vs_2_0",
         longer(false));
 const Target ps_3_0 =
-    row("ps_3_0", "Direct3D 9 assembly and bytecode: levels and gradients, with vs_3_0", model_3);
+    row("ps_3_0", "Direct3D 9 assembly and bytecode: loops, levels and gradients, with vs_3_0",
+        model_3);
 const Target vs_2_0 =
     row("vs_2_0", "Direct3D 9 assembly and bytecode: the vertex stage alone, for ps_2_0, 2_a, 2_b",
         model_2, false);
