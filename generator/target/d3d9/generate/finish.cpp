@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 
-#include "generator/target/d3d9/generate/vertex.h"
 #include "generator/target/d3d9/ops.h"
 
 namespace intaglio::d3d9 {
@@ -202,7 +201,7 @@ class Finish {
         const unsigned lanes = lanes_of_register(graph_->inputs, index);
         declaration.target.mask = static_cast<Mask>(lanes);
         if (!limits_.pixel()) {
-            const AttributeUsage usage = attribute_usages(module_)[static_cast<std::size_t>(index)];
+            const AttributeUsage usage = graph_->attributes[static_cast<std::size_t>(index)];
             declaration.usage = usage.usage;
             declaration.usage_index = usage.index;
             if (!model_3()) declaration.target.mask = full_mask;

@@ -45,10 +45,11 @@ struct Node {
 };
 
 struct Graph {
-    std::vector<Node> nodes;               // operands may point anywhere; order() sorts
-    std::vector<Operand> outputs;          // of four components each: oC0, oC1 ...
-    std::vector<InterpolantPlace> inputs;  // where each of the module's inputs lies
-    int variables = 0;                     // registers that code places first
+    std::vector<Node> nodes;                 // operands may point anywhere; order() sorts
+    std::vector<Operand> outputs;            // of four components each: oC0, oC1 ...
+    std::vector<InterpolantPlace> inputs;    // where each of the module's inputs lies
+    int variables = 0;                       // registers that code places first
+    std::vector<AttributeUsage> attributes;  // what each of them is, in a vertex shader
     // Of a vertex shader: where each output lies; their widths are those of the operands.
     std::vector<InterpolantPlace> output_places;
 

@@ -17,6 +17,12 @@ struct InterpolantPlace {
     friend bool operator==(const InterpolantPlace&, const InterpolantPlace&) = default;
 };
 
+// What a vertex attribute is to a vertex declaration.
+struct AttributeUsage {
+    Usage usage = Usage::Texcoord;
+    int index = 0;
+};
+
 // The index of the vertex shader's position, which is no interpolant.
 inline constexpr int position_output = -1;
 

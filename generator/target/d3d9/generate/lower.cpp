@@ -470,7 +470,7 @@ Result<Graph> lower(const ir::Module& module, Profile profile, std::vector<std::
     if (!graph) return graph;
     std::sort(notes.begin(), notes.end());
     notes.erase(std::unique(notes.begin(), notes.end()), notes.end());
-    graph->inputs = interpolant_places(module, profile);
+    if (is_pixel(profile)) graph->inputs = interpolant_places(module, profile);
     simplify(*graph);
     return graph;
 }

@@ -9,8 +9,9 @@
 
 namespace intaglio::d3d9 {
 
-// A pixel module without loops and ifs (unrolled, flattened) to instructions of the profile, mads
-// and saturations formed.  Refuses [d3d9-level] a texture read at a level that the profile cannot
+// A module without loops and ifs (unrolled, flattened) to instructions of the profile, mads and
+// saturations formed; a vertex module still needs legalize_for_vertex() and the places of its
+// inputs and outputs.  Refuses [d3d9-level] a texture read at a level that the profile cannot
 // name, [d3d9-op] what has no instructions.  `notes` gets a sentence for each deviation from the
 // IR's meaning.
 Result<Graph> lower(const ir::Module& module, Profile profile, std::vector<std::string>& notes);

@@ -9,7 +9,6 @@
 #include "generator/target/d3d9/generate/code.h"
 
 namespace intaglio::d3d9 {
-
 namespace {
 
 struct Location {
@@ -41,6 +40,7 @@ class Placement {
         for (std::size_t i = order_.size(); i-- > 0;) choose_homes(order_[i]);
         for (const int index : order_) emit(index);
         for (std::size_t k = 0; k < graph_.outputs.size(); ++k) emit_output(static_cast<int>(k));
+        if (!limits_.pixel()) write_outputs_directly(code_);
         return std::move(code_);
     }
 
@@ -263,7 +263,7 @@ class Placement {
                 !at_home(list[k], target, positions[k]))
                 rest.push_back(k);
         while (!rest.empty()) {
-            const auto part = largest_part(list, positions, rest);
+            const auto part = take_largest_part(list, positions, rest);
             Mask mask = 0;
             for (const std::size_t k : part) {
                 mask = static_cast<Mask>(mask | (1 << positions[k]));
@@ -271,12 +271,12 @@ class Placement {
                 occupy(target, positions[k]);
             }
             move(target, mask, *direct_part(list, positions, part));
-            for (const std::size_t k : part) rest.erase(std::find(rest.begin(), rest.end(), k));
         }
     }
-    // The largest part that one mov can do.
-    std::vector<std::size_t> largest_part(const std::vector<Lane>& list, const Positions& positions,
-                                          const std::vector<std::size_t>& rest) {
+    // The largest part of the rest that one mov can do.
+    std::vector<std::size_t> take_largest_part(const std::vector<Lane>& list,
+                                               const Positions& positions,
+                                               std::vector<std::size_t>& rest) {
         std::vector<std::size_t> part;
         for (std::size_t set = 1; set < (1u << rest.size()); ++set) {
             std::vector<std::size_t> trial;
@@ -284,6 +284,7 @@ class Placement {
                 if ((set >> j & 1) != 0) trial.push_back(rest[j]);
             if (trial.size() > part.size() && direct_part(list, positions, trial)) part = trial;
         }
+        for (const std::size_t k : part) rest.erase(std::find(rest.begin(), rest.end(), k));
         return part;
     }
     bool at_home(Lane lane, int target, int position) {
@@ -439,14 +440,12 @@ class Placement {
         std::vector<std::size_t> rest;
         for (std::size_t c = 0; c < operand.lanes.size(); ++c) rest.push_back(c);
         while (!rest.empty()) {
-            const auto part = largest_part(operand.lanes, positions, rest);
+            const auto part = take_largest_part(operand.lanes, positions, rest);
             Mask mask = 0;
             for (const std::size_t c : part) mask = static_cast<Mask>(mask | (1 << positions[c]));
             move(-1, mask, *direct_part(operand.lanes, positions, part));
-            VirtualInstruction& mov = code_.instructions.back();
-            mov.output = k;
-            mov.sources[0].negate = operand.negate;
-            for (const std::size_t c : part) rest.erase(std::find(rest.begin(), rest.end(), c));
+            code_.instructions.back().output = k;
+            code_.instructions.back().sources[0].negate = operand.negate;
         }
     }
 
@@ -495,9 +494,7 @@ class Placement {
 
 Code place(const Graph& graph, const std::vector<int>& order, const Limits& limits,
            const std::vector<int>& uniform_registers) {
-    Code code = Placement(graph, order, limits, uniform_registers).run();
-    if (!limits.pixel()) write_outputs_directly(code);
-    return code;
+    return Placement(graph, order, limits, uniform_registers).run();
 }
 
 }  // namespace intaglio::d3d9

@@ -33,6 +33,19 @@ Status check_reads(const ir::Module& module, Profile profile) {
     return status;
 }
 
+// Attribute i is v#i; what nothing reads may be gone, and changes nobody's usage.
+void name_attributes(const ir::Module& module, const ir::Module& recorded, Graph& graph) {
+    const std::vector<AttributeUsage> usages = attribute_usages(recorded);
+    for (const ir::Declaration& input : module.inputs) {
+        const auto same = [&](const ir::Declaration& other) { return other.name == input.name; };
+        const auto found = std::find_if(recorded.inputs.begin(), recorded.inputs.end(), same);
+        graph.attributes.push_back(
+            usages[static_cast<std::size_t>(found - recorded.inputs.begin())]);
+        graph.inputs.push_back(
+            {static_cast<int>(graph.inputs.size()), input.type.width, {0, 1, 2, 3}});
+    }
+}
+
 // The outputs that are needed, one operand a register where signs agree.
 class Outputs {
   public:
@@ -91,7 +104,7 @@ std::vector<AttributeUsage> attribute_usages(const ir::Module& vertex) {
     return usages;
 }
 
-Result<Candidate> vertex_stage(const ir::Program& program,
+Result<Candidate> vertex_stage(const ir::Program& program, const ir::Module& recorded,
                                const std::vector<Interpolant>& interpolants, Profile profile) {
     ir::Module module = program.vertex;
     passes::PipelineOptions options;
@@ -102,6 +115,7 @@ Result<Candidate> vertex_stage(const ir::Program& program,
     if (const Status status = check_reads(module, profile); !status) return status.error();
     auto graph = lower(module, profile, *notes);
     if (!graph) return graph.error();
+    name_attributes(module, recorded, *graph);
     Outputs outputs(module, *graph);
     outputs.add_position();
     for (const Interpolant& interpolant : interpolants) outputs.add_interpolant(interpolant);
