@@ -25,6 +25,12 @@ void add_variant(CLI::App& command, VariantOptions& options, bool with_target = 
         ->allow_extra_args(false);
     command.add_flag("--per-vertex", options.per_vertex,
                      "Move affine functions of interpolants to the vertex stage");
+    command.add_option("--split", options.split,
+                       "In several passes: shading, shadow, sections=3, or several by commas");
+}
+
+void add_pass(CLI::App& command, VariantOptions& options) {
+    command.add_option("--pass", options.pass, "One pass of the split, from 1");
 }
 
 void add_map(CLI::App& command, MapOptions& options) {
@@ -85,6 +91,7 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
         auto options = std::make_shared<EmitCommandOptions>();
         CLI::App* command = app.add_subcommand("emit", "One variant as text or binary");
         add_variant(*command, options->variant);
+        add_pass(*command, options->variant);
         command->add_option("--stage", options->stage,
                             "vertex or pixel; pixel if not given, vertex of a vertex profile");
         command
@@ -172,9 +179,39 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
         command->add_flag("--validation", options->validation, "With the Vulkan validation layers");
         command->add_option("--error-map", options->error_map,
                             "Also a picture of the hit errors (with --mesh map)");
+        command
+            ->add_option("--format", options->passes.format,
+                         "Of the picture between passes: rgba8, rgba16, rgba16f or rgba32f")
+            ->capture_default_str();
+        command->add_option("--offset-range", options->passes.range,
+                            "Greatest offset that it holds, in texture units; 0: as the map's view "
+                            "needs, 4 times the scale on a mesh");
         command->add_option("-o,--output", options->output, "PNG file")->required();
         command->callback([&chosen, &catalogue, options] {
             chosen = [&, options] { return run(catalogue, *options); };
+        });
+    }
+    {
+        auto options = std::make_shared<SplitOptions>();
+        CLI::App* command = app.add_subcommand(
+            "split", "The passes of a split surface, and the error of the format between them");
+        add_variant(*command, options->variant);
+        add_map(*command, options->map);
+        command->add_option("--elevation", options->elevation, "Of the eye, degrees")
+            ->capture_default_str();
+        command->add_option("--azimuth", options->azimuth, "Of the eye, degrees")
+            ->capture_default_str();
+        command->add_option("--light-elevation", options->light_elevation, "Degrees")
+            ->capture_default_str();
+        command->add_option("--light-azimuth", options->light_azimuth, "Degrees")
+            ->capture_default_str();
+        command->add_option("--size", options->size, "Pixels a side")
+            ->capture_default_str()
+            ->check(CLI::Range(1, 4096));
+        command->add_option("--device", options->device,
+                            "Part of a Vulkan device's name; lavapipe if not given");
+        command->callback([&chosen, &catalogue, options] {
+            chosen = [&, options] { return split_table(catalogue, *options); };
         });
     }
     {

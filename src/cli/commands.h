@@ -26,6 +26,8 @@ struct VariantOptions {
     std::vector<std::string> knobs;  // "taps=12"
     std::vector<std::string> loops;  // "march=unroll" or "march=loop"
     bool per_vertex = false;
+    std::string split = {};  // "shading", "sections=3,shading"; empty: one pass
+    int pass = 0;            // of the split, from 1; 0: all of them, where a command can
 };
 Result<VariantRequest> request_of(const VariantOptions& options);
 
@@ -40,6 +42,9 @@ struct EmitCommandOptions {
     std::string output = "-";
 };
 Status emit_variant(const dsl::Catalogue& catalogue, const EmitCommandOptions& options);
+
+// What the witnesses counted, as a line's end.
+std::string cost_text(const Target& target, const Judged& judged);
 
 struct ValidateOptions {
     std::vector<std::string> surfaces;
@@ -68,6 +73,12 @@ struct MapOptions {
 Result<measure::MapSet> map_set_of(const MapOptions& options);
 Result<measure::Filtering> filtering_of(const std::string& name);
 
+// The picture between the passes of a split surface.
+struct PassOptions {
+    std::string format = "rgba16f";  // rgba8, rgba16, rgba16f, rgba32f
+    double range = 0;                // greatest offset, texture units; 0: as the view needs
+};
+
 struct RunOptions {
     VariantOptions variant;
     MapOptions map;
@@ -79,9 +90,20 @@ struct RunOptions {
     std::string device;
     bool validation = false;
     std::string error_map;  // a file for the map of hit errors; only with mesh = map
+    PassOptions passes;
     std::string output;
 };
 Status run(const dsl::Catalogue& catalogue, const RunOptions& options);
+
+struct SplitOptions {
+    VariantOptions variant;
+    MapOptions map;
+    double elevation = 40, azimuth = 250, light_elevation = 45, light_azimuth = 20;
+    int size = 256;
+    std::string device;
+};
+// The passes of a split surface with their cost, and what each format between them costs in error.
+Status split_table(const dsl::Catalogue& catalogue, const SplitOptions& options);
 
 struct MeasureOptions {
     std::string scene;

@@ -1,5 +1,6 @@
 // `intaglio emit` and `intaglio validate`.
 #include <cstdio>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -39,13 +40,9 @@ EmitOptions dump_options(const std::string& wanted, std::string& last) {
     }};
 }
 
-}  // namespace
-
-Status emit_variant(const dsl::Catalogue& catalogue, const EmitCommandOptions& options) {
-    if (Status status = check_choices(options); !status) return status;
-    Result<VariantRequest> request = request_of(options.variant);
-    if (!request) return request.error();
-    request->count_reads = options.count_reads;
+// The product of one pass, or of a surface that is not split; notes and dumps go to stderr.
+Result<Product> make_product(const dsl::Catalogue& catalogue, const EmitCommandOptions& options,
+                             const VariantRequest& request) {
     std::string last_ir;
     const EmitOptions dump = dump_options(options.dump_ir, last_ir);
 
@@ -55,11 +52,11 @@ Status emit_variant(const dsl::Catalogue& catalogue, const EmitCommandOptions& o
             options.part == "search" ? dsl::FunctionPart::Search : dsl::FunctionPart::Shadow;
         const Binding binding =
             options.bind == "parameters" ? Binding::Parameters : Binding::Globals;
-        Result<Artifact> function = make_function(catalogue, *request, part, binding, dump);
+        Result<Artifact> function = make_function(catalogue, request, part, binding, dump);
         if (!function) return function.error();
         product = {std::move(function->text), function->extension, false};
     } else {
-        const Result<Variant> variant = make_variant(catalogue, *request, dump);
+        const Result<Variant> variant = make_variant(catalogue, request, dump);
         if (!variant) return variant.error();
         const bool vertex =
             options.stage.empty() ? !variant->target->pixel_stage : options.stage == "vertex";
@@ -72,12 +69,64 @@ Status emit_variant(const dsl::Catalogue& catalogue, const EmitCommandOptions& o
         for (const std::string& note : artifact.notes) fmt::print(stderr, "note: {}\n", note);
     }
     if (options.dump_ir == "final") fmt::print(stderr, "{}", last_ir);
-    return write_product(options.output, product.bytes, product.binary);
+    return product;
 }
 
-namespace {
+// relief.asm to relief.pass2.asm.
+std::string file_of_pass(const std::string& output, int pass) {
+    const std::filesystem::path path = output;
+    std::filesystem::path name = path.stem();
+    name += fmt::format(".pass{}", pass);
+    name += path.extension();
+    return (path.parent_path() / name).string();
+}
 
-// What the witnesses counted.
+// Every pass of a split into a file of its own; none where one is refused.
+Status emit_passes(const dsl::Catalogue& catalogue, const EmitCommandOptions& options,
+                   VariantRequest request) {
+    const int passes = dsl::pass_count(request.split);
+    if (options.output == "-") {
+        std::string works;
+        for (int pass = 1; pass <= passes; ++pass)
+            works += fmt::format("{}{}: {}", pass == 1 ? "" : "; ", pass,
+                                 dsl::pass_work(request.split, pass));
+        return input_error("split-pass",
+                           fmt::format("this split has {} passes ({}); name one with --pass, or "
+                                       "give a file with -o for one file each",
+                                       passes, works));
+    }
+    std::vector<Product> products;
+    for (request.pass = 1; request.pass <= passes; ++request.pass) {
+        Result<Product> product = make_product(catalogue, options, request);
+        if (!product) return product.error();
+        products.push_back(std::move(*product));
+    }
+    for (int pass = 1; pass <= passes; ++pass) {
+        const Product& product = products[static_cast<std::size_t>(pass - 1)];
+        const std::string file = file_of_pass(options.output, pass);
+        if (Status status = write_product(file, product.bytes, product.binary); !status)
+            return status;
+        fmt::print(stderr, "{}: {}\n", file, dsl::pass_work(request.split, pass));
+    }
+    return Done{};
+}
+
+}  // namespace
+
+Status emit_variant(const dsl::Catalogue& catalogue, const EmitCommandOptions& options) {
+    if (Status status = check_choices(options); !status) return status;
+    Result<VariantRequest> request = request_of(options.variant);
+    if (!request) return request.error();
+    request->count_reads = options.count_reads;
+    if (dsl::pass_count(request->split) > 1 && options.as == "function")
+        return input_error("option-value", "--split is of whole shaders, not of --as function");
+    if (dsl::pass_count(request->split) > 1 && request->pass == 0)
+        return emit_passes(catalogue, options, *request);
+    const Result<Product> product = make_product(catalogue, options, *request);
+    if (!product) return product.error();
+    return write_product(options.output, product->bytes, product->binary);
+}
+
 std::string cost_text(const Target& target, const Judged& judged) {
     if (!judged.shaders.empty()) {
         std::string text;
@@ -98,12 +147,18 @@ std::string cost_text(const Target& target, const Judged& judged) {
                        cost.longest_path);
 }
 
+namespace {
+
 // One surface on one target.  What a target refuses is a line of the table, unless it was asked
 // for.
 Status validate_one(const dsl::Catalogue& catalogue, const ValidateOptions& options,
                     const std::string& surface, const std::string& target) {
-    const Result<VariantRequest> request =
-        request_of({surface, target, options.knobs, options.loops, false});
+    VariantOptions one;
+    one.surface = surface;
+    one.target = target;
+    one.knobs = options.knobs;
+    one.loops = options.loops;
+    const Result<VariantRequest> request = request_of(one);
     if (!request) return request.error();
     const Result<Variant> variant = make_variant(catalogue, *request);
     if (!variant && options.targets.empty() && is_refusal(variant.error())) {

@@ -17,6 +17,14 @@ Result<VariantRequest> request_of(const VariantOptions& options) {
     request.surface = options.surface;
     request.target = options.target;
     request.per_vertex = options.per_vertex;
+    if (!options.split.empty()) {
+        const Result<dsl::Split> split = dsl::parse_split(options.split);
+        if (!split) return split.error();
+        request.split = *split;
+    } else if (options.pass != 0) {
+        return input_error("option-value", "--pass needs --split: there is one pass without");
+    }
+    request.pass = options.pass;
     for (const std::string& knob : options.knobs) {
         const std::size_t equals = knob.find('=');
         if (equals == std::string::npos)

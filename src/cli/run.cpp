@@ -1,4 +1,5 @@
 // `intaglio run`: one picture.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -6,7 +7,7 @@
 
 #include "src/cli/commands.h"
 #include "src/maps/png.h"
-#include "src/measure/shot.h"
+#include "src/measure/split.h"
 #include "src/report/picture.h"
 
 namespace intaglio::cli {
@@ -78,11 +79,13 @@ Status check_validation(const vulkan::Device& device) {
 }
 
 measure::Shot shot_of(const RunOptions& options, Size size) {
-    return {{options.elevation, options.azimuth},
-            {options.light_elevation, options.light_azimuth},
-            options.map.scale,
-            size.width,
-            size.height};
+    measure::Shot shot;
+    shot.view = {options.elevation, options.azimuth};
+    shot.light = {options.light_elevation, options.light_azimuth};
+    shot.scale = options.map.scale;
+    shot.width = size.width;
+    shot.height = size.height;
+    return shot;
 }
 
 Status write_error_map(const std::vector<measure::HitError>& errors, const std::string& path,
@@ -95,17 +98,29 @@ Status write_error_map(const std::vector<measure::HitError>& errors, const std::
     return maps::write_png(path, report::error_map(errors, size.width));
 }
 
-Result<vulkan::Picture> draw_mesh(const vulkan::Device& device, const check::Program& shaders,
-                                  const measure::Textures& textures, const RunOptions& options,
-                                  Size size) {
-    const Result<measure::MeshView> view = mesh_view(options, size);
-    if (!view) return view.error();
-    Result<vulkan::Program> program = measure::prepare_mesh(
-        device, shaders, textures, options.map.scale, size.width, size.height, *view);
-    if (!program) return program.error();
-    Result<std::vector<vulkan::Picture>> pictures = program->draw();
-    if (!pictures) return pictures.error();
-    return std::move(pictures->front());
+// Draws a pass on the mesh; what it refers to must outlive it.
+measure::PreparePass prepare_on_mesh(const vulkan::Device& device,
+                                     const measure::Textures& textures, const RunOptions& options,
+                                     const measure::MeshView& view, Size size) {
+    return [&, size](const check::Program& shaders, const measure::PassLink& link) {
+        return measure::prepare_mesh(device, shaders, textures, options.map.scale, size.width,
+                                     size.height, view, {}, link);
+    };
+}
+
+// What the format of the picture between the passes changed.
+Status print_format_error(const dsl::Catalogue& catalogue, const measure::SplitDraw& draw,
+                          const measure::OffsetCode& code, const std::string& format) {
+    const Result<std::vector<measure::FormatError>> errors =
+        measure::compare_formats(catalogue, draw, {code.format});
+    if (!errors) return errors.error();
+    const measure::FormatError& error = errors->front();
+    fmt::print(stderr,
+               "{} between {} passes moves hits by median {:.2g}, p99 {:.2g}, max {:.2g} texels "
+               "(bound {:.2g}; {} of {} pixels above it); colours by at most {:.2g}, rms {:.2g}\n",
+               format, dsl::pass_count(draw.request.split), error.median, error.p99, error.max,
+               error.bound, error.beyond, error.pixels, error.colour_max, error.colour_rms);
+    return Done{};
 }
 
 }  // namespace
@@ -118,10 +133,10 @@ Status run(const dsl::Catalogue& catalogue, const RunOptions& options) {
     if (!size) return size.error();
     const Result<measure::Filtering> filtering = filtering_of(options.map.filtering);
     if (!filtering) return filtering.error();
-    const Result<Variant> variant = make_variant(catalogue, *request);
-    if (!variant) return variant.error();
-    const Result<check::Program> shaders = link_variant(*variant);
-    if (!shaders) return shaders.error();
+    const Result<vulkan::Texture::Format> format = measure::format_named(options.passes.format);
+    if (!format) return format.error();
+    const Result<std::vector<check::Program>> passes = measure::link_passes(catalogue, *request);
+    if (!passes) return passes.error();
     const Result<measure::MapSet> set = map_set_of(options.map);
     if (!set) return set.error();
     const Result<vulkan::Device> device =
@@ -129,14 +144,37 @@ Status run(const dsl::Catalogue& catalogue, const RunOptions& options) {
     if (!device) return device.error();
 
     const measure::Textures textures(*set, *filtering);
-    const Result<vulkan::Picture> picture =
-        options.mesh == "map"
-            ? measure::draw_shot(*device, catalogue, *request, textures, shot_of(options, *size))
-            : draw_mesh(*device, *shaders, textures, options, *size);
+    measure::Shot shot = shot_of(options, *size);
+    shot.format = *format;
+    const bool flat = options.mesh == "map";
+    const Result<measure::MeshView> view = flat ? measure::MeshView{} : mesh_view(options, *size);
+    if (!view) return view.error();
+    // 76 degrees from straight down, per axis; flatter rays are clamped by the unorm formats.
+    constexpr double mesh_slope = 4;
+    shot.range = options.passes.range > 0 ? options.passes.range
+                 : flat                   ? measure::shot_range(shot)
+                                          : mesh_slope * std::max(options.map.scale, 1e-3);
+    const measure::OffsetCode code = measure::offset_code(shot.format, shot.range);
+    const measure::PreparePass prepare =
+        flat ? measure::prepare_shot(*device, textures, shot)
+             : prepare_on_mesh(*device, textures, options, *view, *size);
+    const Result<vulkan::Picture> picture = measure::draw_passes(*passes, code, prepare);
     if (!picture) return picture.error();
+    if (passes->size() > 1) {
+        const measure::SplitDraw draw{
+            *request,
+            code.range,
+            textures.height.width,
+            textures.height.height,
+            prepare,
+            flat ? std::nullopt : std::optional(measure::mesh_background)};
+        if (Status status = print_format_error(catalogue, draw, code, options.passes.format);
+            !status)
+            return status;
+    }
     if (!options.error_map.empty()) {
-        const Result<std::vector<measure::HitError>> errors = measure::shot_errors(
-            *device, catalogue, *request, *set, textures, shot_of(options, *size));
+        const Result<std::vector<measure::HitError>> errors =
+            measure::shot_errors(*device, catalogue, *request, *set, textures, shot);
         if (!errors) return errors.error();
         if (Status status = write_error_map(*errors, options.error_map, *size); !status)
             return status;

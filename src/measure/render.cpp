@@ -53,7 +53,7 @@ Result<vulkan::Program> prepare_mesh(const vulkan::Device& device, const check::
     draw.uniforms["eye"] = {view.camera.eye[0], view.camera.eye[1], view.camera.eye[2], 1};
     draw.uniforms["light"] = {view.light[0], view.light[1], view.light[2], 0};
     draw.depth_test = true;
-    draw.clear = {0.012f, 0.013f, 0.016f, 1};
+    draw.clear = mesh_background;
     return vulkan::Program::prepare(device, draw);
 }
 

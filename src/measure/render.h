@@ -41,6 +41,9 @@ Result<vulkan::Program> prepare_quad(const vulkan::Device& device, const check::
 // Turns the eye and the light of a prepared quad.
 Status aim(vulkan::Program& program, Direction view, Direction light);
 
+// What a picture of a mesh holds where the mesh is not.
+inline constexpr std::array<float, 4> mesh_background = {0.012f, 0.013f, 0.016f, 1};
+
 // A mesh under a perspective camera, the light at infinity in world space.
 struct MeshView {
     vulkan::Mesh mesh;

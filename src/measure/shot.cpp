@@ -1,22 +1,17 @@
 // Shots.
 #include "src/measure/shot.h"
 
+#include "src/measure/split.h"
+
 namespace intaglio::measure {
 
 Result<vulkan::Picture> draw_shot(const vulkan::Device& device, const dsl::Catalogue& catalogue,
                                   const VariantRequest& request, const Textures& textures,
                                   const Shot& shot) {
-    const Result<Variant> variant = make_variant(catalogue, request);
-    if (!variant) return variant.error();
-    const Result<check::Program> shaders = link_variant(*variant);
-    if (!shaders) return shaders.error();
-    Result<vulkan::Program> program =
-        prepare_quad(device, *shaders, textures, shot.scale, shot.width, shot.height);
-    if (!program) return program.error();
-    if (Status status = aim(*program, shot.view, shot.light); !status) return status.error();
-    Result<std::vector<vulkan::Picture>> pictures = program->draw();
-    if (!pictures) return pictures.error();
-    return std::move(pictures->front());
+    const Result<std::vector<check::Program>> passes = link_passes(catalogue, request);
+    if (!passes) return passes.error();
+    return draw_passes(*passes, offset_code(shot.format, shot_range(shot)),
+                       prepare_shot(device, textures, shot));
 }
 
 Result<std::vector<HitError>> shot_errors(const vulkan::Device& device,

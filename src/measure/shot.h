@@ -14,9 +14,13 @@ struct Shot {
     Direction view, light;
     double scale = 0.08;
     int width = 256, height = 256;
+    // Of the pictures between the passes of a split surface, and the greatest offset they hold, in
+    // texture units; 0: as the view needs.
+    vulkan::Texture::Format format = vulkan::Texture::Format::Rgba32Float;
+    double range = 0;
 };
 
-// The variant's first colour target.
+// The variant's first colour target; of a split surface that of its last pass.
 Result<vulkan::Picture> draw_shot(const vulkan::Device& device, const dsl::Catalogue& catalogue,
                                   const VariantRequest& request, const Textures& textures,
                                   const Shot& shot);

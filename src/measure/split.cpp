@@ -39,6 +39,7 @@ void compare_displaced(FormatError& error, const vulkan::Picture& expected,
     std::vector<double> texels;
     for (std::size_t i = 0; i < expected.pixels.size(); ++i) {
         const std::array<float, 4>&a = expected.pixels[i], &b = actual.pixels[i];
+        if (draw.background && a == *draw.background) continue;
         texels.push_back(std::hypot((b[0] - a[0]) * static_cast<float>(draw.map_width),
                                     (b[1] - a[1]) * static_cast<float>(draw.map_height)));
         error.beyond += !(texels.back() <= error.bound);
@@ -209,21 +210,27 @@ Result<std::vector<FormatError>> compare_formats(const dsl::Catalogue& catalogue
     return compare(catalogue, draw, formats, [](FormatError&, const vulkan::Picture&) {});
 }
 
+PreparePass prepare_shot(const vulkan::Device& device, const Textures& textures, const Shot& shot) {
+    return [&](const check::Program& shaders, const PassLink& link) -> Result<vulkan::Program> {
+        Result<vulkan::Program> program =
+            prepare_quad(device, shaders, textures, shot.scale, shot.width, shot.height, {}, link);
+        if (!program) return program;
+        if (Status status = aim(*program, shot.view, shot.light); !status) return status.error();
+        return program;
+    };
+}
+
+double shot_range(const Shot& shot) {
+    return shot.range > 0 ? shot.range : offset_range(shot.view, shot.scale);
+}
+
 Result<std::vector<FormatError>> shot_formats(const vulkan::Device& device,
                                               const dsl::Catalogue& catalogue,
                                               const VariantRequest& request, const MapSet& set,
                                               const Textures& textures, const Shot& shot,
                                               const std::vector<Format>& formats) {
-    const SplitDraw draw{
-        request, offset_range(shot.view, shot.scale), textures.height.width, textures.height.height,
-        [&](const check::Program& shaders, const PassLink& link) -> Result<vulkan::Program> {
-            Result<vulkan::Program> program = prepare_quad(device, shaders, textures, shot.scale,
-                                                           shot.width, shot.height, {}, link);
-            if (!program) return program;
-            if (Status status = aim(*program, shot.view, shot.light); !status)
-                return status.error();
-            return program;
-        }};
+    const SplitDraw draw{request, shot_range(shot), textures.height.width, textures.height.height,
+                         prepare_shot(device, textures, shot)};
     const reference::HeightField field = set.height_field(reference::FilterWeights::Exact);
     const float scale = static_cast<float>(shot.scale);
     const ExactPicture exact =

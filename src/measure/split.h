@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,11 +68,18 @@ struct SplitDraw {
     double range = 0;        // see OffsetCode
     int map_width = 0, map_height = 0;
     PreparePass prepare;
+    // Pixels of the displaced picture with this value show no surface, and do not count.
+    std::optional<std::array<float, 4>> background = {};
 };
 // One row for each format.
 Result<std::vector<FormatError>> compare_formats(
     const dsl::Catalogue& catalogue, const SplitDraw& draw,
     const std::vector<vulkan::Texture::Format>& formats);
+
+// Draws a pass on a quad over the whole map; textures and shot must outlive it.
+PreparePass prepare_shot(const vulkan::Device& device, const Textures& textures, const Shot& shot);
+// shot.range, or what the view needs.
+double shot_range(const Shot& shot);
 
 // The same for a quad over the whole map, with the errors against the exact reference.
 Result<std::vector<FormatError>> shot_formats(const vulkan::Device& device,
