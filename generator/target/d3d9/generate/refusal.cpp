@@ -67,15 +67,15 @@ std::string limit_exceeded(const Candidate& candidate) {
 std::string_view advice(Profile profile) {
     switch (profile) {
         case Profile::ps_2_0:
-            return "try fewer taps or steps, ps_2_b or ps_2_a, or "
-                   "output=displaced and shading in a second pass";
+            return "try fewer taps or steps, ps_2_b or ps_2_a, or several passes: "
+                   "--split shading, --split sections=2,shading";
         case Profile::ps_2_a:
         case Profile::ps_2_b:
-            return "try fewer taps or steps, ps_3_0, or output=displaced and "
-                   "shading in a second pass";
+            return "try fewer taps or steps, ps_3_0, or several passes: --split shading, "
+                   "--split sections=2,shading";
         case Profile::ps_3_0:
-            return "try fewer taps or steps, a target with loops, or "
-                   "output=displaced and shading in a second pass";
+            return "try fewer taps or steps, a target with loops, or several passes: "
+                   "--split shading, --split sections=2,shading";
         case Profile::vs_2_0: return "compute less per vertex, or use vs_3_0";
         case Profile::vs_3_0: return "compute less per vertex";
     }
