@@ -147,4 +147,17 @@ int count_differences(const ir::Program& program, const Shader& shader, int pixe
     return differences;
 }
 
+int count_unequal(const ir::Module& a, const ir::Module& b, int pixels) {
+    const ir::Evaluator one(a), other(b);
+    Draw draw(a);
+    std::mt19937 random(seed);
+    int unequal = 0;
+    for (int i = 0; i < pixels; ++i) {
+        set_inputs(draw, a, random);
+        unequal += one.run(draw.environment, ir::Precision::Single).outputs !=
+                   other.run(draw.environment, ir::Precision::Single).outputs;
+    }
+    return unequal;
+}
+
 }  // namespace intaglio::d3d9

@@ -7,11 +7,14 @@
 
 #include "generator/ir/builder.h"
 #include "generator/ir/evaluate.h"
+#include "generator/ir/parse.h"
 #include "generator/ir/print.h"
+#include "generator/ir/verify.h"
 #include "generator/passes/pipeline.h"
 #include "generator/target/d3d9/assembly.h"
 #include "generator/target/d3d9/bytecode.h"
 #include "generator/target/d3d9/generate/flow.h"
+#include "generator/target/d3d9/generate/loop_rewrites.h"
 #include "generator/target/d3d9/interpret.h"
 #include "generator/target/d3d9/legality.h"
 #include "generator/target/d3d9/ops.h"
@@ -74,15 +77,80 @@ TEST(Flow, KeepsTheLoopsThatTheScheduleKeeps) {
     EXPECT_EQ(count_ops(shader, Opcode::Rep), 2);
     EXPECT_EQ(count_ops(shader, Opcode::EndRep), 2);
     EXPECT_GE(count_ops(shader, Opcode::BreakComp), 2);
-    EXPECT_EQ(count_ops(shader, Opcode::Texldl), 3);
+    // One in each loop: the search's first read is rotated into it; the shadow starts at its
+    // height.
+    EXPECT_EQ(count_ops(shader, Opcode::Texldl), 2);
 }
 
 TEST(Flow, StaysSmall) {
     const auto slots = [](const Case& a_case) { return slots_of(shader_of(a_case)).total(); };
-    // Issue: at most 34 for the steep march.
-    EXPECT_LE(slots({"search=steep_parallax,output=displaced", {}}), 34);
-    EXPECT_LE(slots({"search=steep_parallax,shadow=march,output=displaced", {}}), 74);
-    EXPECT_LE(slots({"steep_parallax,shadow=march", {}}), 104);
+    // 34 for the steep march is what was asked for, 29 what was reached.
+    EXPECT_LE(slots({"search=steep_parallax,output=displaced", {}}), 29);
+    EXPECT_LE(slots({"search=steep_parallax,shadow=march,output=displaced", {}}), 68);
+    EXPECT_LE(slots({"steep_parallax,shadow=march", {}}), 98);
+}
+
+// --- rewrites of loops
+
+int trips_of(const ir::Module& module) {
+    for (const ir::Instruction& instruction : module.body.body)
+        if (instruction.op == ir::Op::Loop) return instruction.loop.trip_count;
+    return 0;
+}
+
+TEST(LoopRewrites, ChangeNoBitOfFiniteSurfaces) {
+    int rotated = 0;
+    for (const std::string surface :
+         {"search=steep_parallax,output=displaced", "steep_parallax,shadow=march",
+          "search=none,shadow=march", "parallax_occlusion", "fur"}) {
+        SCOPED_TRACE(surface);
+        auto program = record({surface, {}}, Profile::ps_3_0);
+        ASSERT_TRUE(program) << program.error().message;
+        passes::PipelineOptions options;
+        options.flatten_all = true;
+        ASSERT_TRUE(passes::optimize_program(*program, options));
+        ir::Module rewritten = program->pixel;
+        form_saturations(rewritten);
+        rotate_loops(rewritten);
+        const Status status = ir::verify(rewritten);
+        ASSERT_TRUE(status) << status.error().message;
+        rotated += trips_of(rewritten) == trips_of(program->pixel) + 1;
+        EXPECT_EQ(count_unequal(program->pixel, rewritten, 300), 0) << ir::print(rewritten);
+    }
+    EXPECT_GE(rotated, 2);
+}
+
+// What is carried starts as %first; in each iteration it becomes the number of the next.
+ir::Module counting(const std::string& first) {
+    const auto module = ir::parse(
+        "pixel \"counting\"\ninput a float1 interpolant\n"
+        "output colour float1 target\n{\n"
+        "    %a float1 = input a\n    %first float1 = const " +
+            first +
+            R"(
+    %one int1 = const 1
+    %last float1 = loop "count" 5 rolled (%first) {
+    (%i int1, %at float1):
+        %exit bool1 = greater_equal %at, %a
+        break_if %exit (%at)
+        %next int1 = add %i, %one
+        %number float1 = to_float %next
+        yield (%number)
+    }
+    return (%last)
+})",
+        "counting.ir");
+    EXPECT_TRUE(module) << (module ? "" : to_string(module.error()));
+    return *module;
+}
+
+TEST(LoopRewrites, RotateWhereTheFirstValueFits) {
+    ir::Module fits = counting("0.0"), differs = counting("1.0");
+    rotate_loops(fits);
+    rotate_loops(differs);
+    EXPECT_EQ(trips_of(fits), 6);
+    EXPECT_EQ(trips_of(differs), 5);
+    EXPECT_EQ(count_unequal(counting("0.0"), fits, 100), 0);
 }
 
 // --- random modules, of numbers that every arithmetic has exactly
@@ -209,7 +277,7 @@ class RandomLoops {
 // The numbers are whole, so results agree to the bit.
 TEST(Flow, ComputesRandomModules) {
     int loops = 0, compared = 0;
-    for (unsigned seed = 1; seed <= 80; ++seed) {
+    for (unsigned seed = 1; seed <= 50; ++seed) {
         SCOPED_TRACE(seed);
         ir::Program program;
         program.pixel = RandomLoops(seed).make();
@@ -259,8 +327,8 @@ TEST(Flow, ComputesRandomModules) {
             ++compared;
         }
     }
-    EXPECT_GE(loops, 150);
-    EXPECT_GE(compared, 1500);
+    EXPECT_GE(loops, 100);
+    EXPECT_GE(compared, 900);
 }
 
 }  // namespace

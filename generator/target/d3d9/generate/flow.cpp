@@ -7,6 +7,7 @@
 #include "generator/target/d3d9/generate/finish.h"
 #include "generator/target/d3d9/generate/flow_blocks.h"
 #include "generator/target/d3d9/generate/flow_code.h"
+#include "generator/target/d3d9/generate/loop_rewrites.h"
 #include "generator/target/d3d9/generate/lower.h"
 #include "generator/target/d3d9/generate/pack.h"
 #include "generator/target/d3d9/ops.h"
@@ -229,6 +230,8 @@ class Joining {
 Result<Candidate> generate_flow(const ir::Module& module, Profile profile,
                                 std::vector<std::string>& notes) {
     ir::Module split = module;
+    form_saturations(split);
+    rotate_loops(split);
     split_long_loops(split);
     auto flow = cut_into_blocks(split);
     if (!flow) return flow.error();

@@ -76,8 +76,8 @@ bool remove_idle_loops(FlowCode& code);
 bool hoist_copies(FlowCode& code);
 // A value is computed where a mov would bring it, outputs included; constants are kept once.
 bool coalesce(FlowCode& code);
-// Two instructions that only scale and shift become one: x and a constant side by side are
-// x (1, 0) + (0, c).
+// Two instructions that only scale and shift by constants become one: x and a constant side by side
+// are x (1, 0) + (0, c), and one after the other is again such an instruction.  Rounding differs.
 bool fuse(FlowCode& code);
 
 // Numbers anew those that are named.

@@ -158,7 +158,76 @@ bool commute(const FlowCode& code, const VirtualInstruction& a, const VirtualIns
            !reads_lane_of(code, a, b.target, b.mask) && !reads_lane_of(code, b, a.target, a.mask);
 }
 
-// The lanes of one register that the two would have, if they can be made to share one.
+float number(std::uint32_t bits) { return std::bit_cast<float>(bits); }
+
+// b after a, where b scales and shifts what a computes; `a` writes every lane that b reads.
+Affine composed(const Affine& a, const Affine& b) {
+    Affine result;
+    result.mask = b.mask;
+    result.x = a.x;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::size_t lane = b.x->swizzle[k];
+        result.x->swizzle[k] = a.x->swizzle[lane];
+        if ((b.mask >> k & 1) == 0) continue;
+        const float scale = number(b.scale[k]) * (b.x->negate ? -1.0f : 1.0f);
+        result.scale[k] = std::bit_cast<std::uint32_t>(scale * number(a.scale[lane]));
+        result.shift[k] =
+            std::bit_cast<std::uint32_t>(scale * number(a.shift[lane]) + number(b.shift[k]));
+    }
+    return result;
+}
+
+// x k + c, then + d, is x k + (c + d): rounding alone differs.
+class Composing {
+  public:
+    explicit Composing(FlowCode& code) : code_(code) {}
+
+    bool run() {
+        bool any = false;
+        for (std::size_t j = 0; j < code_.instructions.size(); ++j) {
+            const auto b = affine_of(code_.instructions[j]);
+            if (!b || !b->x || b->x->kind != VirtualSource::Kind::Temp || b->x->absolute) continue;
+            const auto i = maker_of(j, *b);
+            if (!i) continue;
+            const auto made = instruction_for(composed(*affine_of(code_.instructions[*i]), *b),
+                                              code_.instructions[j]);
+            if (!made) continue;
+            code_.instructions[j] = *made;
+            any = true;
+        }
+        return any;
+    }
+
+  private:
+    // The instruction just before in the same straight run that computes x for this one alone.
+    std::optional<std::size_t> maker_of(std::size_t j, const Affine& b) const {
+        Mask wanted = 0;
+        for (std::size_t k = 0; k < 4; ++k)
+            if ((b.mask >> k & 1) != 0) wanted = static_cast<Mask>(wanted | (1 << b.x->swizzle[k]));
+        int readers = 0;
+        for (const VirtualInstruction& other : code_.instructions)
+            readers += reads_lane_of(code_, other, b.x->index, wanted);
+        if (readers != 1) return std::nullopt;
+        for (std::size_t i = j; i-- > 0 && writes(code_.instructions[i]);) {
+            const VirtualInstruction& made = code_.instructions[i];
+            if (made.target != b.x->index || (made.mask & wanted) == 0) continue;
+            const auto a = affine_of(made);
+            if ((made.mask & wanted) != wanted || !a || !a->x) return std::nullopt;
+            for (std::size_t k = i + 1; k < j; ++k)
+                if (a->x->kind == VirtualSource::Kind::Temp &&
+                    reads_lane_of(code_, made, code_.instructions[k].target,
+                                  code_.instructions[k].mask))
+                    return std::nullopt;
+            // Nor what it reads by itself.
+            if (reads_lane_of(code_, made, made.target, made.mask)) return std::nullopt;
+            return i;
+        }
+        return std::nullopt;
+    }
+
+    FlowCode& code_;
+};
+
 class Fusing {
   public:
     explicit Fusing(FlowCode& code) : code_(code), merging_(code) {}
@@ -232,6 +301,9 @@ class Fusing {
 
 }  // namespace
 
-bool fuse(FlowCode& code) { return Fusing(code).run(); }
+bool fuse(FlowCode& code) {
+    const bool composed_any = Composing(code).run();
+    return Fusing(code).run() || composed_any;
+}
 
 }  // namespace intaglio::d3d9
