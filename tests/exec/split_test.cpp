@@ -187,5 +187,30 @@ TEST(Split, APassFindsItsOwnPixelInPerspective) {
     EXPECT_LE(wrong, covered / 20);
 }
 
+// The bytes of ps_2_0, by MojoShader's translation, against the text of glsl_450: both passes with
+// the picture between them.  The instructions differ, so a ray at the edge of a hit may fall to
+// either side of it.
+TEST(Split, TheBytesOfPs20DrawWhatTheTextDoes) {
+    const measure::MapSet set = map_named("cobbles");
+    const measure::Textures textures(set, measure::Filtering::Float);
+    const Direction view{35, 30};
+    for (const Format format : {Format::Rgba8Unorm, Format::Rgba32Float}) {
+        const auto drawn = [&](const std::string& target) {
+            return draw_split(split_request("parallax_occlusion,output=displaced",
+                                            "sections=2,shading", {{"taps", "6"}}, target),
+                              textures, view, format);
+        };
+        const vulkan::Picture text = drawn("glsl_450"), bytes = drawn("ps_2_0");
+        // A coordinate on the boundary of two steps of the format may go to either.
+        const auto code = measure::offset_code(format, measure::offset_range(view, test_scale));
+        int far = 0;
+        for (std::size_t i = 0; i < text.pixels.size(); ++i)
+            for (std::size_t k : {0u, 1u})
+                far +=
+                    !(std::fabs(text.pixels[i][k] - bytes.pixels[i][k]) <= 2 * code.error + 1e-5);
+        EXPECT_LE(far, size * size / 100) << vulkan::name_of(format);
+    }
+}
+
 }  // namespace
 }  // namespace intaglio::exec
