@@ -13,7 +13,7 @@ dsl::Catalogue all_techniques() {
                     shadow_exact(), shadow_fur_depth()},
         .normals = {normal_map(), normal_blinn(), normal_smoothed(), normal_from_hit()},
         .shadings = {shading_phong(), shading_lambert(), shading_emboss(), shading_ambient_only()},
-        .outputs = {output_colour(), output_displaced()},
+        .outputs = {output_colour(), output_displaced(), output_depth()},
         .vertex_works = {vertex_tangent_space()},
         .presets =
             {

@@ -31,6 +31,7 @@ dsl::Entry<dsl::Shading> shading_emboss();
 dsl::Entry<dsl::Shading> shading_ambient_only();
 dsl::Entry<dsl::Output> output_colour();
 dsl::Entry<dsl::Output> output_displaced();
+dsl::Entry<dsl::Output> output_depth();
 dsl::Entry<dsl::VertexWork> vertex_tangent_space();
 
 // The first row of each table is what a composition gets that does not name its part.

@@ -139,7 +139,16 @@ Status record_pixel(const Surface& surface, const RecordOptions& options, const 
     const float4 value =
         let(surface.output->name(), surface.output->write(hit, visibility, colour));
     program.pixel.outputs = {{surface.output->name(), ir::float4, ir::Semantic::Target}};
-    return recorder.finish({value.id()});
+    std::vector<ir::ValueId> values = {value.id()};
+    if (const std::optional<float1> depth = surface.output->depth(relief, hit)) {
+        program.pixel.outputs.push_back({"depth", ir::float1, ir::Semantic::Depth});
+        values.push_back(depth->id());
+    }
+    if (surface.relief->clip_tile == 1) {
+        program.pixel.outputs.push_back({"inside", ir::float1, ir::Semantic::Clip});
+        values.push_back(inside_tile(hit).id());
+    }
+    return recorder.finish(values);
 }
 
 Status record_vertex(const Surface& surface, const Work& work, ir::Program& program) {
@@ -155,6 +164,15 @@ Status record_vertex(const Surface& surface, const Work& work, ir::Program& prog
         program.vertex.outputs.push_back({"reach", ir::float2, ir::Semantic::Interpolant});
         const float3 view = let("view", normalize(vertex.to_eye));
         values.push_back(Ray::reach_of(relief_scale(), view).id());
+    }
+    if (work.output && surface.output->writes_depth()) {
+        if (!vertex.depth_line)
+            return input_error("vertex-depth",
+                               fmt::format("{} writes depth, and its vertex work hands on no "
+                                           "depth_line to compute it from",
+                                           surface.name));
+        program.vertex.outputs.push_back({"depth_line", ir::float4, ir::Semantic::Interpolant});
+        values.push_back(vertex.depth_line->id());
     }
     if (work.number > 0) {
         program.vertex.outputs.push_back({"place", ir::float3, ir::Semantic::Interpolant});

@@ -34,6 +34,13 @@ class ReliefKnobs : public Technique {
         at_least{0},
         at_most{1},
         "1: the ray's reach is computed at the vertices and interpolated; 0: at each pixel"};
+    Knob<int> clip_tile{
+        this,
+        "clip_tile",
+        0,
+        at_least{0},
+        at_most{1},
+        "1: pixels whose ray leaves the part of the map that uniform tile names are dropped"};
 };
 
 struct Surface {

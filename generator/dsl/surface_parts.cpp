@@ -39,6 +39,13 @@ bool apply_schedules(const Surface& surface, const RecordOptions& options, Recor
     return schedule.moves_to_vertex() || options.per_vertex;
 }
 
+float1 inside_tile(const Hit& hit) {
+    const float4 tile = uniform<4>(
+        "tile", "part of the map that the polygon wears: least uv in xy, greatest in zw");
+    const float2 least = hit.uv - tile.xy(), greatest = tile.zw() - hit.uv;
+    return let("inside", min(min(least.x(), least.y()), min(greatest.x(), greatest.y())));
+}
+
 float3 shade(const Surface& surface, const Relief& relief, const Hit& hit, float2 uv, float3 view,
              float3 light, float1 visibility) {
     Step step("shading",

@@ -19,6 +19,9 @@ Status check_techniques(const Surface& surface);
 // stage.
 bool apply_schedules(const Surface& surface, const RecordOptions& options, Recorder& recorder);
 
+// How far the hit lies inside the part of the map that the polygon wears; below 0 outside.
+float1 inside_tile(const Hit& hit);
+
 // The colour of the point that the ray met; `uv` is where the ray entered.
 float3 shade(const Surface& surface, const Relief& relief, const Hit& hit, float2 uv, float3 view,
              float3 light, float1 visibility);

@@ -145,6 +145,10 @@ class Output : public Technique {
     virtual bool shaded() const = 0;
     // The value written; `colour` is 0 unless shaded().
     virtual float4 write(const Hit& hit, float1 visibility, float3 colour) const = 0;
+    // Depth of the point that the ray met, in [0, 1], for the depth buffer; empty: the polygon's
+    // own.  What it is computed from the vertex stage must hand on: Vertex::depth_line.
+    virtual bool writes_depth() const { return false; }
+    virtual std::optional<float1> depth(const Relief&, const Hit&) const { return {}; }
 };
 
 // What the vertex stage hands to the pixel stage, before interpolation.
@@ -152,6 +156,9 @@ struct Vertex {
     float4 position;  // clip space
     float2 uv;
     float3 to_eye, to_light;  // tangent space, any length: interpolated, then normalised per pixel
+    // z and w of the position in clip space, and how they change from there to the eye (all of
+    // to_eye): asked for by outputs that write depth.
+    std::optional<float4> depth_line = {};
 };
 
 class VertexWork : public Technique {

@@ -99,6 +99,8 @@ enum class Semantic : std::uint8_t {
     Target,       // pixel output: colour target, in order of declaration
     Parameter,    // input of a function
     Result,       // output of a function
+    Depth,        // pixel output, one float: written to the depth buffer in place of the polygon's
+    Clip,         // pixel output, one float: the pixel is dropped where it is below 0
 };
 
 struct Declaration {

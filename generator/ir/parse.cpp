@@ -182,7 +182,8 @@ class Parser {
     bool bound(Declaration& declaration) {
         return name(declaration.name) && type(declaration.type) &&
                one_of(semantic_words, declaration.semantic,
-                      "'attribute', 'interpolant', 'position', 'target', 'parameter' or 'result'");
+                      "'attribute', 'interpolant', 'position', 'target', 'parameter', 'result', "
+                      "'depth' or 'clip'");
     }
 
     bool uniform(Uniform& uniform) {

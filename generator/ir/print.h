@@ -22,7 +22,8 @@ std::string print_component(Scalar scalar, std::uint32_t bits);
 // Words of the text that belong to no op, shared with the parser; indexed by the enumerators.
 constexpr std::string_view stage_words[] = {"vertex", "pixel", "function"};
 constexpr std::string_view semantic_words[] = {"attribute", "interpolant", "position",
-                                               "target",    "parameter",   "result"};
+                                               "target",    "parameter",   "result",
+                                               "depth",     "clip"};
 constexpr std::string_view loop_form_words[] = {"", "rolled", "unrolled"};
 
 }  // namespace intaglio::ir

@@ -31,7 +31,10 @@ bool fits(Stage stage, bool is_input, Semantic semantic) {
         case Stage::Vertex:
             return is_input ? semantic == Semantic::Attribute
                             : semantic == Semantic::Interpolant || semantic == Semantic::Position;
-        case Stage::Pixel: return semantic == (is_input ? Semantic::Interpolant : Semantic::Target);
+        case Stage::Pixel:
+            return is_input ? semantic == Semantic::Interpolant
+                            : semantic == Semantic::Target || semantic == Semantic::Depth ||
+                                  semantic == Semantic::Clip;
         case Stage::Function:
             return semantic == (is_input ? Semantic::Parameter : Semantic::Result);
     }
@@ -43,7 +46,7 @@ Status verify_bound(const Module& module, const Declaration& declaration, bool i
         fmt::format("{} '{}'", is_input ? "input" : "output", declaration.name);
     if (!valid(declaration.type))
         return broken(what + ": a type is bool, int or float with 1 to 4 components");
-    if (declaration.semantic > Semantic::Result)
+    if (declaration.semantic > Semantic::Clip)
         return broken(what + ": its semantic does not exist");
     const std::string_view semantic =
         semantic_words[static_cast<std::size_t>(declaration.semantic)];
@@ -58,6 +61,11 @@ Status verify_bound(const Module& module, const Declaration& declaration, bool i
     if (declaration.semantic == Semantic::Position && declaration.type != float4)
         return broken(
             fmt::format("{}: the position is a float4, not {}", what, to_string(declaration.type)));
+    const bool one =
+        declaration.semantic == Semantic::Depth || declaration.semantic == Semantic::Clip;
+    if (one && declaration.type != float1)
+        return broken(fmt::format("{}: {} is one float, not {}", what, semantic,
+                                  to_string(declaration.type)));
     return Done{};
 }
 
@@ -73,14 +81,18 @@ Status verify_declarations(const Module& module) {
     if (auto status = verify_names(module.outputs, "output"); !status) return status;
     if (auto status = verify_names(module.uniforms, "uniform"); !status) return status;
     if (auto status = verify_names(module.samplers, "sampler"); !status) return status;
-    int positions = 0;
+    int positions = 0, depths = 0, clips = 0;
     for (const Declaration& input : module.inputs)
         if (auto status = verify_bound(module, input, true); !status) return status;
     for (const Declaration& output : module.outputs) {
         if (auto status = verify_bound(module, output, false); !status) return status;
         positions += output.semantic == Semantic::Position ? 1 : 0;
+        depths += output.semantic == Semantic::Depth ? 1 : 0;
+        clips += output.semantic == Semantic::Clip ? 1 : 0;
     }
     if (positions > 1) return broken("two outputs are the position");
+    if (depths > 1) return broken("two outputs are the depth");
+    if (clips > 1) return broken("two outputs clip; the smaller of both says the same");
     for (const Uniform& uniform : module.uniforms) {
         if (!valid(uniform.type))
             return broken(fmt::format(

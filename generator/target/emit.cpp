@@ -4,6 +4,7 @@
 #include "generator/ir/verify.h"
 #include "generator/passes/count_texture_reads.h"
 #include "generator/passes/pipeline.h"
+#include "generator/target/limits.h"
 #include "generator/target/target.h"
 
 namespace intaglio {
@@ -49,7 +50,12 @@ Result<Emitted> emit(const ir::Program& program, const Target& target, const Emi
     if (!target.derived_from.empty()) return derived(target);
     for (const ir::Module* module : {&program.vertex, &program.pixel})
         if (Status status = ir::verify(*module); !status) return status.error();
-    if (target.generate != nullptr) return target.generate(program, target, options);
+    if (target.generate != nullptr) {
+        if (target.pixel_stage)
+            if (Status status = check_outputs(program.pixel, target); !status)
+                return status.error();
+        return target.generate(program, target, options);
+    }
     ir::Program legal = program;
     if (options.count_reads) passes::count_texture_reads(legal.pixel);
     Result<Notes> notes = passes::optimize_program(legal, pipeline_options(target, options));

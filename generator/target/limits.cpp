@@ -66,7 +66,23 @@ bool is_refusal(const Diagnostic& error) {
     return std::find(std::begin(codes), std::end(codes), error.code) != std::end(codes);
 }
 
+Status check_outputs(const ir::Module& module, const Target& target) {
+    const auto refused = [&](const ir::Declaration& output, std::string_view what) {
+        return target_limit(module, {},
+                            fmt::format("{} {} as '{}'; {} has no way to say so", module.name, what,
+                                        output.name, target.name));
+    };
+    for (const ir::Declaration& output : module.outputs) {
+        if (output.semantic == ir::Semantic::Depth && !target.capabilities.depth_output)
+            return refused(output, "writes the pixel's depth");
+        if (output.semantic == ir::Semantic::Clip && !target.capabilities.discard)
+            return refused(output, "drops pixels");
+    }
+    return Done{};
+}
+
 Status check_limits(ir::Module& module, const Target& target, Notes&) {
+    if (Status status = check_outputs(module, target); !status) return status;
     const auto targets = std::count_if(
         module.outputs.begin(), module.outputs.end(),
         [](const ir::Declaration& output) { return output.semantic == ir::Semantic::Target; });

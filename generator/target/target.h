@@ -54,6 +54,8 @@ struct Capabilities {
     bool vertex_textures = true;  // texture reads in the vertex stage
     bool precise = false;         // a keyword forbids contraction and reassociation
     bool functions = true;        // emit_function works
+    bool depth_output = true;     // a pixel's own depth
+    bool discard = true;          // pixels that are dropped
     int colour_targets = 8;
     int loop_trips = 0;     // the most iterations of one loop; 0: any
     int texture_reads = 0;  // the most that the text of one stage may hold; 0: any

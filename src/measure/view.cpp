@@ -42,6 +42,8 @@ std::map<std::string, std::vector<float>> uniforms_of(Direction view, Direction 
         {"light_colour", {look.light_colour.begin(), look.light_colour.end()}},
         {"gloss", {look.gloss}},
         {"map_tangents", {1, 0, 0, 1}},
+        {"tile", {0, 0, 1, 1}},
+        {"texture_span", {1}},
     };
 }
 

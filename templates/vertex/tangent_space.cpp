@@ -50,9 +50,13 @@ class TangentSpace : public VertexWork {
         const auto row = [](int i) {
             return uniform_row("view_projection", 4, i, "world to clip space: four rows");
         };
+        const float4 position_in_clip(dot(row(0), place), dot(row(1), place), dot(row(2), place),
+                                      dot(row(3), place));
+        const float4 eye_direction = let("eye_direction", float4(world_to_eye, 0.0f));
         return {
-            float4(dot(row(0), place), dot(row(1), place), dot(row(2), place), dot(row(3), place)),
-            input<2>("uv"), to_tangent_space(world_to_eye), to_tangent_space(world_to_light)};
+            position_in_clip, input<2>("uv"), to_tangent_space(world_to_eye),
+            to_tangent_space(world_to_light),
+            float4(position_in_clip.zw(), dot(row(2), eye_direction), dot(row(3), eye_direction))};
     }
 };
 

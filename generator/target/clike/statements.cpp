@@ -291,9 +291,19 @@ class BodyPrinter {
         begin_step(instruction);
         if (ending_.stores.empty()) return print_result(instruction.operands[0]);
         for (std::size_t i = 0; i < instruction.operands.size(); ++i)
-            statement(fmt::format("{} = {};", ending_.stores[i],
-                                  expressions_.read(instruction.operands[i])));
+            print_output(ending_.stores[i], module_.outputs[i].name, instruction.operands[i]);
         if (!ending_.after.empty()) statement(ending_.after);
+    }
+
+    // What goes into a statement gets a name of its own, for `precise` to stand on.
+    void print_output(std::string store, const std::string& wanted, ValueId value) {
+        const std::string text = expressions_.read(value);
+        const std::size_t hole = store.find("%0");
+        if (hole == std::string::npos) return statement(fmt::format("{} = {};", store, text));
+        const std::string name = scope_.declare(wanted, "value");
+        statement(fmt::format("{}{} {} = {};", spelling_.precise, type_of(module_.type(value)),
+                              name, text));
+        statement(store.replace(hole, 2, name));
     }
 
     // `precise` needs a variable to stand on.

@@ -15,8 +15,9 @@ namespace intaglio::clike {
 // How a body hands over its outputs.
 struct Ending {
     std::string before;               // a first statement, "Targets result;"; may be empty
-    std::vector<std::string> stores;  // for each output what stands left of "=": "color"; empty:
-                                      // the one output is returned
+    // For each output what stands left of "=", "color", or a whole statement with %0 where the
+    // value's name goes, "clip(%0);"; empty: the one output is returned.
+    std::vector<std::string> stores;
     std::string result_name;          // wanted for the returned value, should it need a name
     std::string after;                // a last statement, "return result;"; may be empty
 };

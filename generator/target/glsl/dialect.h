@@ -30,6 +30,8 @@ struct Dialect {
     // ddx and ddy; empty: the language has them.
     std::string_view explicit_read_extension = {};
     std::string_view derivative_extension = {};
+    std::string_view depth = "gl_FragDepth";
+    std::string_view depth_extension = {};  // a line needed to write it; may be empty
 };
 
 Result<Artifact> print_stage(const Dialect& dialect, const ir::Program& program, ir::Stage stage);

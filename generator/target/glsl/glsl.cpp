@@ -174,6 +174,8 @@ const glsl::Dialect dialect_100_es = [] {
         "precision highp float;\nprecision highp int;\nprecision highp sampler2D;";
     made.explicit_read_extension = "#extension GL_EXT_shader_texture_lod : require";
     made.derivative_extension = "#extension GL_OES_standard_derivatives : require";
+    made.depth = "gl_FragDepthEXT";
+    made.depth_extension = "#extension GL_EXT_frag_depth : require";
     return made;
 }();
 

@@ -89,6 +89,10 @@ std::vector<std::string_view> extensions(const Dialect& dialect, const ir::Modul
         lines.push_back(dialect.explicit_read_extension);
     if (!dialect.derivative_extension.empty() && contains(module.body, derivative))
         lines.push_back(dialect.derivative_extension);
+    const bool depth = std::any_of(
+        module.outputs.begin(), module.outputs.end(),
+        [](const ir::Declaration& output) { return output.semantic == ir::Semantic::Depth; });
+    if (depth && !dialect.depth_extension.empty()) lines.push_back(dialect.depth_extension);
     return lines;
 }
 
@@ -158,6 +162,14 @@ std::vector<std::string> put_outputs(TextBuilder& out, const Dialect& dialect,
             if (dialect.position.empty()) continue;
             out.line(dialect.position);
             declared = true;
+            continue;
+        }
+        if (output.semantic == ir::Semantic::Depth) {
+            names.push_back(fmt::format("{} = %0;", dialect.depth));
+            continue;
+        }
+        if (output.semantic == ir::Semantic::Clip) {
+            names.emplace_back("if (%0 < 0.0) discard;");
             continue;
         }
         const bool colour = output.semantic == ir::Semantic::Target;

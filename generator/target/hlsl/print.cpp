@@ -139,7 +139,7 @@ std::map<std::string, std::string> put_interpolants(TextBuilder& out, const Dial
     return names;
 }
 
-// One target is the return value; several are a struct.
+// One target alone is the return value; else the targets and the depth are a struct.
 clike::Ending put_targets(TextBuilder& out, const Dialect& dialect, const ir::Module& pixel,
                           std::string& signature) {
     if (pixel.outputs.size() == 1) {
@@ -151,10 +151,16 @@ clike::Ending put_targets(TextBuilder& out, const Dialect& dialect, const ir::Mo
     clike::Ending ending;
     out.line("struct Targets {");
     out.indent();
+    int targets = 0;
     for (const ir::Declaration& output : pixel.outputs) {
+        if (output.semantic == ir::Semantic::Clip) {
+            ending.stores.emplace_back("clip(%0);");
+            continue;
+        }
         const std::string name = members.declare(output.name);
-        out.format("{}{} {} : SV_Target{};", dialect.spelling.precise,
-                   type_of(dialect, output.type), name, ending.stores.size());
+        out.format("{}{} {} : {};", dialect.spelling.precise, type_of(dialect, output.type), name,
+                   output.semantic == ir::Semantic::Depth ? "SV_Depth"
+                                                          : fmt::format("SV_Target{}", targets++));
         ending.stores.push_back("result." + name);
     }
     out.outdent();

@@ -91,6 +91,7 @@ struct Draw {
     Vec3 to_eye{0, 0, 1}, to_light{0, 0, 1};
     double scale = 0.08;
     Vector map_tangents{1, 0, 0, 1};
+    Vector tile{0, 0, 1, 1};
     double gloss = 0.5;
     const ir::Texture* normal_map = nullptr;  // flat where none is given
     ir::Precision precision = ir::Precision::Single;
@@ -113,6 +114,8 @@ class Judge {
             {"ambient", {0.25, 0.27, 0.33}},
             {"light_colour", {1, 0.96, 0.88}},
             {"gloss", {draw.gloss}},
+            {"tile", draw.tile},
+            {"texture_span", {1}},
             {"map_tangents", draw.map_tangents}};
         ir::Environment environment;
         for (const ir::Declaration& input : module_.inputs)
