@@ -217,7 +217,8 @@ bool fits(const Module& pixel, const InterpolantLimits& limits) {
         ++count;
         components += input.type.width;
     }
-    return count <= limits.count && components <= limits.components;
+    return count <= limits.count && components <= limits.components &&
+           (!limits.fits || limits.fits(pixel));
 }
 
 // The program with one root moved, or nothing if the limits forbid it.

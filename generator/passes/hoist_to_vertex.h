@@ -1,6 +1,7 @@
 // Affine functions of interpolants, computed per vertex instead of per pixel.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@ namespace intaglio::passes {
 struct InterpolantLimits {
     int count = 8;
     int components = 32;
+    // What else a pixel stage's inputs must obey, if not empty.
+    std::function<bool(const ir::Module& pixel)> fits = {};
 };
 
 // Interpolation keeps affine functions: f(lerp(a, b)) = lerp(f(a), f(b)).  So with the program's

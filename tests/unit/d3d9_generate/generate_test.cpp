@@ -82,6 +82,7 @@ struct Size {
     std::vector<std::pair<std::string, std::string>> knobs;
     Profile profile;
     int arithmetic, texture;
+    bool per_vertex = false;
 };
 
 // What the generator reached: fewer is progress and is written here, more is none.
@@ -108,6 +109,18 @@ std::vector<Size> sizes() {
          Profile::ps_2_0,
          62,
          15},
+        {"parallax_occlusion,output=displaced",
+         {{"taps", "8"}, {"ray_per_vertex", "1"}},
+         Profile::ps_2_0,
+         26,
+         9,
+         true},
+        {"parallax_occlusion",
+         {{"taps", "8"}, {"ray_per_vertex", "1"}},
+         Profile::ps_2_0,
+         53,
+         11,
+         true},
     };
 }
 
@@ -115,8 +128,9 @@ TEST(GenerateSize, IsWhatItWas) {
     for (const Size& size : sizes()) {
         const Case a_case{size.surface, size.knobs};
         SCOPED_TRACE(a_case.name());
-        const auto program = record(a_case, size.profile);
+        auto program = record(a_case, size.profile);
         ASSERT_TRUE(program) << program.error().message;
+        program->per_vertex = size.per_vertex;
         const auto shader = generate_pixel(*program, size.profile);
         ASSERT_TRUE(shader) << shader.error().message;
         EXPECT_EQ(slots_of(*shader).arithmetic, size.arithmetic);

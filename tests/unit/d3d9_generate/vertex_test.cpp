@@ -272,12 +272,16 @@ TEST_P(Vertex, FeedsThePixelShader) {
         {"bump", {}},
         {"parallax_occlusion,output=displaced", {{"taps", "3"}}},
         {"parallax_occlusion,output=displaced", {{"taps", "3"}, {"ray_per_vertex", "1"}}},
+        {"parallax_occlusion", {{"taps", "8"}, {"ray_per_vertex", "1"}}},
         {"search=none,shadow=march", {{"shadow_min_steps", "3"}, {"shadow_max_steps", "3"}}}};
-    for (const Case& a_case : cases) {
-        SCOPED_TRACE(a_case.name());
+    for (std::size_t number = 0; number < 2 * cases.size(); ++number) {
+        const Case& a_case = cases[number / 2];
+        const bool per_vertex = number % 2 == 1;
+        SCOPED_TRACE(a_case.name() + (per_vertex ? " per vertex" : ""));
         const Profile pixel = pixel_profile(GetParam());
-        const auto program = record(a_case, pixel);
+        auto program = record(a_case, pixel);
         ASSERT_TRUE(program) << to_string(program.error());
+        program->per_vertex = per_vertex;
         const auto stages = generate_program(*program, pixel);
         ASSERT_TRUE(stages) << to_string(stages.error());
         EXPECT_EQ(stages->vertex.profile, GetParam());

@@ -12,6 +12,7 @@
 #include "generator/target/d3d9/generate/candidate.h"
 #include "generator/target/d3d9/generate/flow.h"
 #include "generator/target/d3d9/generate/fold_divisions.h"
+#include "generator/target/d3d9/generate/interpolants.h"
 #include "generator/target/d3d9/generate/loop_plan.h"
 #include "generator/target/d3d9/generate/lower.h"
 #include "generator/target/d3d9/generate/vertex.h"
@@ -38,6 +39,7 @@ Result<ir::Program> straighten(const ir::Program& program, const LoopPlan& plan,
     apply(LoopPlan{}, result.vertex, Profile::ps_2_0);
     unroll_others(result.vertex);
     options.flatten_all = true;
+    options.interpolants = interpolant_limits(profile);
     auto more = passes::optimize_program(result, options);
     if (!more) return more.error();
     notes.insert(notes.end(), more->begin(), more->end());

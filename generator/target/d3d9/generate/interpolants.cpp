@@ -2,6 +2,8 @@
 // counts the registers, and `.wzyx` shows the second where it is needed.
 #include "generator/target/d3d9/generate/interpolants.h"
 
+#include <algorithm>
+
 #include "generator/passes/rewrite.h"
 
 namespace intaglio::d3d9 {
@@ -47,6 +49,16 @@ std::vector<InterpolantPlace> interpolant_places(const ir::Module& pixel, Profil
     for (std::size_t i = 0; i < places.size(); ++i)
         if (host[i] >= 0) places[i].index = places[static_cast<std::size_t>(host[i])].index;
     return places;
+}
+
+passes::InterpolantLimits interpolant_limits(Profile profile) {
+    constexpr int registers = 8, components = 4 * registers;
+    return {components, components, [profile](const ir::Module& pixel) {
+                const auto places = interpolant_places(pixel, profile);
+                return std::all_of(
+                    places.begin(), places.end(),
+                    [&](const InterpolantPlace& place) { return place.index < registers; });
+            }};
 }
 
 Mask lanes_of_register(const std::vector<InterpolantPlace>& places, int index) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "generator/ir/module.h"
+#include "generator/passes/hoist_to_vertex.h"
 #include "generator/target/d3d9/shader.h"
 
 namespace intaglio::d3d9 {
@@ -28,6 +29,9 @@ inline constexpr int position_output = -1;
 
 // For each input of the optimised pixel module its place.  No two inputs share a component.
 std::vector<InterpolantPlace> interpolant_places(const ir::Module& pixel, Profile profile);
+
+// How many interpolants may pass: as many as interpolant_places() puts into eight registers.
+passes::InterpolantLimits interpolant_limits(Profile profile);
 
 // The components of register `index` that these places cover.
 Mask lanes_of_register(const std::vector<InterpolantPlace>& places, int index);
