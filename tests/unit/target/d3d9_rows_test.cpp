@@ -26,7 +26,7 @@ step show "Show the texel."
     %uv float2 = input uv
     %tint float3 = input tint
     %strength float1 = uniform strength
-    %texel float4 = sample_implicit map %uv @0:7 #show
+    %texel float4 = sample map %uv @0:7 #show
     %strengths float3 = swizzle %strength.xxx
     %rgb float3 = swizzle %texel.xyz
     %strong float3 = mul %rgb, %strengths @0:8 #show

@@ -103,6 +103,18 @@ std::vector<Interpolant> read_by(const PixelStage& stage) {
     return result;
 }
 
+std::vector<std::string> in_words(const std::vector<Interpolant>& interpolants) {
+    std::vector<std::string> result;
+    for (const Interpolant& interpolant : interpolants) {
+        const InterpolantPlace& place = interpolant.place;
+        std::string lanes;
+        for (int k = 0; k < place.width; ++k)
+            lanes += "xyzw"[place.lanes[static_cast<std::size_t>(k)]];
+        result.push_back(fmt::format("texcoord{}.{} {}", place.index, lanes, interpolant.name));
+    }
+    return result;
+}
+
 void append(std::vector<std::string>* notes, const std::vector<std::string>& more) {
     if (notes != nullptr) notes->insert(notes->end(), more.begin(), more.end());
 }
@@ -123,8 +135,10 @@ Result<Attempt> attempt_program(const ir::Program& recorded, Profile profile) {
     if (!pixel) return pixel.error();
     Attempt result;
     Candidate& candidate = pixel->candidate;
+    const std::vector<Interpolant> interpolants = read_by(*pixel);
+    result.interpolants = in_words(interpolants);
     if (candidate.fits()) {
-        auto vertex = vertex_stage(pixel->program, recorded.vertex, read_by(*pixel),
+        auto vertex = vertex_stage(pixel->program, recorded.vertex, interpolants,
                                    profile == Profile::ps_3_0 ? Profile::vs_3_0 : Profile::vs_2_0);
         if (!vertex) return vertex.error();
         append(&candidate.notes, vertex->notes);
@@ -143,7 +157,7 @@ Result<Stages> generate_program(const ir::Program& recorded, Profile profile) {
     if (!attempt) return attempt.error();
     if (attempt->refusal) return *attempt->refusal;
     return Stages{std::move(*attempt->vertex), std::move(attempt->pixel),
-                  std::move(attempt->notes)};
+                  std::move(attempt->interpolants), std::move(attempt->notes)};
 }
 
 Result<Shader> generate_vertex(const ir::Program& recorded, Profile profile,

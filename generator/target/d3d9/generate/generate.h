@@ -22,6 +22,7 @@ namespace intaglio::d3d9 {
 // declares.
 struct Stages {
     Shader vertex, pixel;
+    std::vector<std::string> interpolants;  // what passes between them: "texcoord0.xy uv"
     std::vector<std::string> notes;
 };
 
@@ -36,6 +37,7 @@ struct Attempt {
     std::optional<Diagnostic> refusal;  // of the pixel stage
     bool only_slots =
         false;  // refused for want of registers: of the pixel stage only slots are right
+    std::vector<std::string> interpolants;
     std::vector<std::string> notes;
 };
 Result<Attempt> attempt_program(const ir::Program& recorded, Profile pixel);

@@ -49,11 +49,12 @@ void put_headroom(TextBuilder& out, const Shader& shader) {
 }  // namespace
 
 std::string listing(const ir::Program& recorded, ir::Stage stage, const Target& target,
-                    const Shader& shader) {
+                    const Shader& shader, const std::vector<std::string>& interpolants) {
     TextBuilder out;
     clike::put_header(out, recorded, stage, target);
     out.line();
     put_bindings(out, recorded, shader);
+    for (const std::string& interpolant : interpolants) clike::put_comment(out, interpolant);
     out.line();
     put_headroom(out, shader);
     out.line();

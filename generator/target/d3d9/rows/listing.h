@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "generator/target/d3d9/shader.h"
 #include "generator/target/target.h"
@@ -10,8 +11,8 @@
 namespace intaglio::d3d9 {
 
 // The text that parse() reads back to an equal shader.  `recorded` gives title, settings and what
-// uniforms and textures mean.
+// uniforms and textures mean; `interpolants` as in Stages.
 std::string listing(const ir::Program& recorded, ir::Stage stage, const Target& target,
-                    const Shader& shader);
+                    const Shader& shader, const std::vector<std::string>& interpolants);
 
 }  // namespace intaglio::d3d9

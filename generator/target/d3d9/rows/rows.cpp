@@ -20,13 +20,13 @@ std::string bytes_of(const d3d9::Shader& shader) {
     return bytes;
 }
 
-Artifact artifact_of(const ir::Program& recorded, const Target& target,
-                     const d3d9::Shader& shader) {
+Artifact artifact_of(const ir::Program& recorded, const Target& target, const d3d9::Shader& shader,
+                     const std::vector<std::string>& interpolants) {
     Artifact artifact;
     const bool pixel = is_pixel(shader.profile);
     artifact.stage = pixel ? ir::Stage::Pixel : ir::Stage::Vertex;
     artifact.entry = "main";
-    artifact.text = d3d9::listing(recorded, artifact.stage, target, shader);
+    artifact.text = d3d9::listing(recorded, artifact.stage, target, shader, interpolants);
     artifact.extension = pixel ? ".psh" : ".vsh";
     artifact.bytecode = {bytes_of(shader), pixel ? ".pso" : ".vso"};
     return artifact;
@@ -45,15 +45,15 @@ Result<Emitted> generate(const ir::Program& recorded, const Target& target,
         Notes notes;
         const Result<d3d9::Shader> shader = d3d9::generate_vertex(recorded, profile, &notes);
         if (!shader) return shader.error();
-        emitted.vertex = artifact_of(recorded, target, *shader);
+        emitted.vertex = artifact_of(recorded, target, *shader, {});
         emitted.vertex.notes = std::move(notes);
         return emitted;
     }
     Result<d3d9::Stages> stages = d3d9::generate_program(recorded, profile);
     if (!stages) return stages.error();
     if (options.count_reads) stages->pixel = d3d9::with_read_counter(stages->pixel);
-    emitted.vertex = artifact_of(recorded, target, stages->vertex);
-    emitted.pixel = artifact_of(recorded, target, stages->pixel);
+    emitted.vertex = artifact_of(recorded, target, stages->vertex, stages->interpolants);
+    emitted.pixel = artifact_of(recorded, target, stages->pixel, stages->interpolants);
     emitted.vertex.notes = stages->notes;
     emitted.pixel.notes = std::move(stages->notes);
     return emitted;
@@ -66,8 +66,6 @@ constexpr Capabilities model_2 = {.loops = false,
                                   .texture_gradients = false,
                                   .vertex_textures = false,
                                   .functions = false,
-                                  .depth_output = false,
-                                  .discard = false,
                                   .colour_targets = 4,
                                   .texture_reads = 32,
                                   .interpolants = {8, 32}};
@@ -77,12 +75,8 @@ constexpr Capabilities longer(bool gradients) {
     can.texture_reads = 512;
     return can;
 }
-constexpr Capabilities model_3 = {.branches = false,
-                                  .functions = false,
-                                  .depth_output = false,
-                                  .discard = false,
-                                  .colour_targets = 4,
-                                  .interpolants = {10, 40}};
+constexpr Capabilities model_3 = {
+    .branches = false, .functions = false, .colour_targets = 4, .interpolants = {10, 40}};
 
 constexpr Target row(std::string_view name, std::string_view description, Capabilities can,
                      bool pixel_stage = true) {
