@@ -66,6 +66,8 @@ constexpr Capabilities model_2 = {.loops = false,
                                   .texture_gradients = false,
                                   .vertex_textures = false,
                                   .functions = false,
+                                  .depth_output = false,
+                                  .discard = false,
                                   .colour_targets = 4,
                                   .texture_reads = 32,
                                   .interpolants = {8, 32}};
@@ -75,8 +77,12 @@ constexpr Capabilities longer(bool gradients) {
     can.texture_reads = 512;
     return can;
 }
-constexpr Capabilities model_3 = {
-    .branches = false, .functions = false, .colour_targets = 4, .interpolants = {10, 40}};
+constexpr Capabilities model_3 = {.branches = false,
+                                  .functions = false,
+                                  .depth_output = false,
+                                  .discard = false,
+                                  .colour_targets = 4,
+                                  .interpolants = {10, 40}};
 
 constexpr Target row(std::string_view name, std::string_view description, Capabilities can,
                      bool pixel_stage = true) {
