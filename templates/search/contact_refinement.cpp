@@ -27,10 +27,12 @@ class ContactRefinement : public Search {
         const Crossing crossing = march_linearly(relief, ray, march, step);
 
         Step refining("refine", "Go one step back and march it again in fine steps.");
-        const float1 before = let("before", crossing.t - step);
         var<float1> t{"hit", crossing.t};
         for (int1 i : contact) {
-            const float1 next = let("next", before + (i + 1) * fine);
+            // One sum from the sample inside: a sum of two known numbers may be folded, and rounds
+            // otherwise then.
+            const int1 left = fine_steps.value() - 1 - i;
+            const float1 next = let("next", crossing.t - left * fine);
             const bool1 inside = gap(relief, ray, next) >= 0.0f;
             t = select(inside, next, crossing.t);
             contact.until(inside);
