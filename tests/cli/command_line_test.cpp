@@ -175,6 +175,41 @@ TEST_F(CommandLine, RefusesWhatAProfileHasNot) {
     EXPECT_THAT(long_one.err, HasSubstr("templates/search/parallax_occlusion.cpp:"));
 }
 
+TEST_F(CommandLine, EmitsDrawsAndMeasuresPasses) {
+    const std::vector<std::string> surface = {"parallax_occlusion", "-T",      "ps_2_0", "-D",
+                                              "taps=4",             "--split", "shading"};
+    const auto with = [&](std::vector<std::string> start, const std::vector<std::string>& end) {
+        start.insert(start.end(), surface.begin(), surface.end());
+        start.insert(start.end(), end.begin(), end.end());
+        return run(start);
+    };
+    const Outcome unnamed = with({"emit"}, {});
+    EXPECT_EQ(unnamed.code, 2);
+    EXPECT_THAT(unnamed.err, HasSubstr("2: shading and output"));
+    EXPECT_THAT(with({"emit"}, {"--pass", "2"}).out, HasSubstr("displaced_map"));
+    EXPECT_EQ(with({"emit"}, {"--pass", "3"}).code, 2);
+    EXPECT_EQ(with({"emit"}, {"-o", path("relief.asm")}).code, 0);
+    EXPECT_THAT(contents(path("relief.pass1.asm")), HasSubstr("pass 1 of 2: search"));
+    EXPECT_THAT(contents(path("relief.pass2.asm")), HasSubstr("pass 2 of 2: shading"));
+    EXPECT_EQ(run({"emit", "bump", "-T", "none", "--pass", "1"}).code, 2) << "a pass of what";
+
+    const std::vector<std::string> map = {"--maker", "cobbles", "--map-size", "32x32"};
+    std::vector<std::string> drawn = {"--format", "rgba8", "--size", "32x32", "-o", path("p.png")};
+    drawn.insert(drawn.end(), map.begin(), map.end());
+    const Outcome picture = with({"run"}, drawn);
+    EXPECT_EQ(picture.code, 0) << picture.err;
+    EXPECT_THAT(picture.err, HasSubstr("rgba8 between 2 passes moves hits by"));
+    EXPECT_TRUE(fs::exists(path("p.png")));
+
+    std::vector<std::string> small = {"--size", "16"};
+    small.insert(small.end(), map.begin(), map.end());
+    const Outcome table = with({"split"}, small);
+    EXPECT_EQ(table.code, 0) << table.err;
+    for (const char* part : {"pass 1, search, shadow: ", "pass 2, shading and output: ",
+                             "ps_2_0: ", "RGBA8 ", "RGBA16F ", "RGBA32F "})
+        EXPECT_THAT(table.out, HasSubstr(part));
+}
+
 TEST_F(CommandLine, ExplainsWhoSpendsTheSlots) {
     const Outcome fits = run({"explain", "parallax_occlusion,output=displaced", "-T", "ps_2_0"});
     EXPECT_EQ(fits.code, 0) << fits.err;
