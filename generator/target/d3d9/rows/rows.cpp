@@ -59,33 +59,33 @@ Result<Emitted> generate(const ir::Program& recorded, const Target& target,
     return emitted;
 }
 
-constexpr Capabilities model_2 = {.loops = false,
-                                  .branches = false,
-                                  .derivatives = false,
-                                  .texture_levels = false,
-                                  .texture_gradients = false,
-                                  .vertex_textures = false,
-                                  .functions = false,
-                                  .depth_output = false,
-                                  .discard = false,
-                                  .colour_targets = 4,
-                                  .texture_reads = 32,
-                                  .interpolants = {8, 32}};
-constexpr Capabilities longer(bool gradients) {
+const Capabilities model_2 = {.loops = false,
+                              .branches = false,
+                              .derivatives = false,
+                              .texture_levels = false,
+                              .texture_gradients = false,
+                              .vertex_textures = false,
+                              .functions = false,
+                              .depth_output = false,
+                              .discard = false,
+                              .colour_targets = 4,
+                              .texture_reads = 32,
+                              .interpolants = {8, 32}};
+Capabilities longer(bool gradients) {
     Capabilities can = model_2;
     can.derivatives = can.texture_gradients = gradients;
     can.texture_reads = 512;
     return can;
 }
-constexpr Capabilities model_3 = {.branches = false,
-                                  .functions = false,
-                                  .depth_output = false,
-                                  .discard = false,
-                                  .colour_targets = 4,
-                                  .interpolants = {10, 40}};
+const Capabilities model_3 = {.branches = false,
+                              .functions = false,
+                              .depth_output = false,
+                              .discard = false,
+                              .colour_targets = 4,
+                              .interpolants = {10, 40}};
 
-constexpr Target row(std::string_view name, std::string_view description, Capabilities can,
-                     bool pixel_stage = true) {
+Target row(std::string_view name, std::string_view description, Capabilities can,
+           bool pixel_stage = true) {
     return {.name = name,
             .description = description,
             .derived_from = {},
