@@ -143,7 +143,7 @@ constexpr LegalizingPass legalizing_2_x[] = {use_hardware_levels_pass, check_lim
                                              replace_scalar_dots_pass};
 
 // What the profiles 2_0 and 2_b cannot say at all; the compiler counts the other slots.
-constexpr Capabilities shader_model_2(int texture_reads) {
+Capabilities shader_model_2(int texture_reads) {
     return {.loops = false,
             .branches = false,
             .derivatives = false,
