@@ -247,6 +247,55 @@ TEST(Split, SectionsOfAMarchAreTheLongerMarch) {
         }
 }
 
+// pixel_place as docs/split.md has it for each interface: clip space of a pixel's centre comes to
+// the centre of its texel.
+TEST(Split, ThePlaceIsThePixelsOwnTexelInEveryInterface) {
+    constexpr double width = 40, height = 24;
+    struct Interface {
+        const char* name;
+        double centre;  // of pixel 0, in pixels
+        double up;      // 1 if clip space's y grows upwards and rows downwards
+        Vector place;
+    };
+    const Interface interfaces[] = {
+        {"Vulkan", 0.5, -1, {0.5, 0.5, 0.5, 0.5}},
+        {"Direct3D 10", 0.5, 1, {0.5, -0.5, 0.5, 0.5}},
+        {"Direct3D 9", 0, 1, {0.5, -0.5, 0.5 + 0.5 / width, 0.5 + 0.5 / height}},
+    };
+    const ir::Program pass = passes_of(surface_named("parallax_occlusion"), "shading")[1];
+    const ir::Module& vertex = pass.vertex;
+    const auto output = [&](std::string_view name) {
+        for (std::size_t i = 0; i < vertex.outputs.size(); ++i)
+            if (vertex.outputs[i].name == name) return i;
+        ADD_FAILURE() << name;
+        return std::size_t{0};
+    };
+    for (const Interface& interface : interfaces)
+        for (const double w : {1.0, 3.5})
+            for (const double x : {0.0, 7.0, width - 1})
+                for (const double y : {0.0, 11.0, height - 1}) {
+                    const double clip_x = (x + interface.centre) / width * 2 - 1;
+                    const double clip_y = interface.up * (1 - (y + interface.centre) / height * 2);
+                    ir::Environment environment;
+                    for (const ir::Declaration& input : vertex.inputs)
+                        environment.inputs.push_back(input.name == "normal"    ? Vector{0, 0, 1}
+                                                     : input.name == "tangent" ? Vector{1, 0, 0, 1}
+                                                                               : Vector{});
+                    for (const ir::Uniform& uniform : vertex.uniforms) {
+                        std::vector<Vector> rows(static_cast<std::size_t>(uniform.count));
+                        if (uniform.name == "view_projection")
+                            rows = {{0, 0, 0, clip_x * w}, {0, 0, 0, clip_y * w}, {}, {0, 0, 0, w}};
+                        if (uniform.name == "pixel_place") rows = {interface.place};
+                        environment.uniforms.push_back(rows);
+                    }
+                    const auto out =
+                        ir::Evaluator(vertex).run(environment, ir::Precision::Single).outputs;
+                    const auto& place = out[output("place")];
+                    EXPECT_NEAR(place[0] / place[2], (x + 0.5) / width, 1e-6) << interface.name;
+                    EXPECT_NEAR(place[1] / place[2], (y + 0.5) / height, 1e-6) << interface.name;
+                }
+}
+
 TEST(Split, RefusalsSayWhy) {
     const Surface surface = surface_named("parallax_occlusion");
     const Split shading = *parse_split("shading");
