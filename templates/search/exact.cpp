@@ -45,7 +45,7 @@ class Exact : public Search {
             walk.until(root <= span || leave >= 1.0f);
             crossed = TexelWalk::over_nearer(crossed, next);
         }
-        // The floor of the relief is there, whatever the rounding of the last root.
+        // The floor of the relief is there, however a device's division rounds the last root.
         const bool last_section = relief.section + 1 == relief.sections;
         const bool1 met = last_section ? found || t >= 1.0f : found;
         return {let("displaced", ray.at(t)), 1 - t, met, beyond};

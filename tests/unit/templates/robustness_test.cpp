@@ -79,5 +79,19 @@ TEST(Robustness, TheFloorIsFound) {
         }
 }
 
+// n steps of float(1 / n) end a little above the floor for some n.
+TEST(Robustness, TheFloorIsFoundWithEveryNumberOfSteps) {
+    const Map floor = flat_map(0);
+    const Ray ray{{0.3, 0.7}, direction(40, 25)};
+    for (const auto& [search, knob] : {std::pair{"relief", "linear_steps"},
+                                       {"relief_secant", "linear_steps"},
+                                       {"contact_refinement", "coarse_steps"}})
+        for (int steps = 1; steps <= 100; ++steps) {
+            const Answer answer = Asked(search, {{knob, std::to_string(steps)}})(floor, ray);
+            EXPECT_EQ(answer.found, 1) << search << " " << steps;
+            EXPECT_NEAR(answer.height, 0, 1e-6) << search << " " << steps;
+        }
+}
+
 }  // namespace
 }  // namespace intaglio::templates
