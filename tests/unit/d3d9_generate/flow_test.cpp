@@ -90,6 +90,79 @@ TEST(Flow, StaysSmall) {
     EXPECT_LE(slots({"steep_parallax,shadow=march", {}}), 98);
 }
 
+// --- what the schedule says, and what it leaves open
+
+// A sum of reads, `trips` of them, in a loop of this form.
+ir::Program summing(int trips, ir::LoopForm form) {
+    ir::Program program;
+    ir::Module& module = program.pixel;
+    program.name = module.name = "summing";
+    module.inputs.push_back({"at", ir::float2, ir::Semantic::Interpolant});
+    module.outputs.push_back({"colour", ir::float4, ir::Semantic::Target});
+    module.samplers.push_back({"map", 2, ""});
+    ir::Builder builder(module);
+    const ir::ValueId at = builder.input(0), zero = builder.constant(0.0f);
+    ir::LoopInfo info;
+    info.name = "sum";
+    info.trip_count = trips;
+    info.form = form;
+    const std::array initial = {builder.swizzle(zero, "xxxx")};
+    const auto scope = builder.begin_loop(info, initial);
+    const ir::ValueId step = builder.emit(ir::Op::ToFloat, {scope.index});
+    const ir::ValueId place = builder.emit(ir::Op::Add, {at, builder.swizzle(step, "xx")});
+    const ir::ValueId read = builder.sample(ir::Op::SampleLevel, 0, {place, zero});
+    const std::array next = {builder.emit(ir::Op::Add, {scope.carried[0], read})};
+    builder.finish(builder.end_loop(next));
+    program.vertex.stage = ir::Stage::Vertex;
+    program.vertex.outputs.push_back({"at", ir::float2, ir::Semantic::Interpolant});
+    ir::Builder vertex(program.vertex);
+    const std::array corner = {vertex.swizzle(vertex.constant(0.5f), "xx")};
+    vertex.finish(corner);
+    return program;
+}
+
+TEST(LoopPlans, DemandsAreObeyedAndTheRestIsChosenByCost) {
+    const auto reps = [](int trips, ir::LoopForm form) {
+        const ir::Program program = summing(trips, form);
+        const auto shader = generate_pixel(program, Profile::ps_3_0);
+        EXPECT_TRUE(shader) << (shader ? "" : shader.error().message);
+        if (!shader) return -1;
+        EXPECT_EQ(count_differences(program, *shader, 50), 0) << print(*shader);
+        return count_ops(*shader, Opcode::Rep);
+    };
+    EXPECT_EQ(reps(2, ir::LoopForm::Rolled), 1);
+    EXPECT_EQ(reps(20, ir::LoopForm::Unrolled), 0);
+    EXPECT_EQ(reps(2, ir::LoopForm::Unspecified), 0);
+    EXPECT_EQ(reps(20, ir::LoopForm::Unspecified), 1);
+    EXPECT_EQ(reps(700, ir::LoopForm::Rolled), 2);  // a rep counts to 255
+}
+
+// Five loops, each around the next.
+TEST(LoopPlans, RefusesLoopsNestedTooDeep) {
+    ir::Program program = summing(3, ir::LoopForm::Rolled);
+    ir::Module nested;
+    nested.inputs = program.pixel.inputs;
+    nested.outputs = {{"colour", ir::float1, ir::Semantic::Target}};
+    ir::Builder builder(nested);
+    ir::ValueId sum = builder.swizzle(builder.input(0), "x");
+    std::vector<ir::Builder::LoopScope> scopes;
+    for (int depth = 0; depth < 5; ++depth) {
+        ir::LoopInfo info;
+        info.name = "loop" + std::to_string(depth);
+        info.trip_count = 3;
+        info.form = ir::LoopForm::Rolled;
+        scopes.push_back(builder.begin_loop(info, std::array{sum}));
+        sum = builder.emit(ir::Op::Mul, {scopes.back().carried[0], scopes.back().carried[0]});
+    }
+    for (int depth = 0; depth < 5; ++depth) sum = builder.end_loop(std::array{sum})[0];
+    builder.finish(std::array{sum});
+    program.pixel = nested;
+    const auto shader = generate_pixel(program, Profile::ps_3_0);
+    ASSERT_FALSE(shader);
+    EXPECT_EQ(shader.error().code, "d3d9-loop");
+    EXPECT_THAT(shader.error().message, HasSubstr("nested 5 deep; ps_3_0 nests 4"));
+}
+
 // --- rewrites of loops
 
 int trips_of(const ir::Module& module) {

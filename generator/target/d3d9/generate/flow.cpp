@@ -41,7 +41,7 @@ class Joining {
         FlowCode best = best_choice();
         Candidate candidate;
         candidate.inputs = all.inputs;
-        const bool fits = assign_registers(best, limits_of(profile_).temps);
+        const bool fits = !is_hopeless(best) && assign_registers(best, limits_of(profile_).temps);
         candidate.shader = numbered(all, std::move(best));
         if (fits)
             candidate.violations = check(candidate.shader);
@@ -110,13 +110,17 @@ class Joining {
     FlowCode best_choice() const {
         std::vector<std::size_t> choice(alternatives_.size());
         FlowCode best = joined(choice);
-        for (bool improved = true; improved;) {
+        if (is_hopeless(best)) return best;
+        tidy(best);
+        int trials = trials_for(best);
+        for (bool improved = true; improved && trials > 0;) {
             improved = false;
             for (std::size_t b = 0; b < choice.size(); ++b)
-                for (std::size_t k = 0; k < alternatives_[b].size(); ++k) {
+                for (std::size_t k = 0; k < alternatives_[b].size() && trials-- > 0; ++k) {
                     std::vector<std::size_t> trial = choice;
                     trial[b] = k;
                     FlowCode code = joined(trial);
+                    tidy(code);
                     if (slots_of(code) >= slots_of(best)) continue;
                     best = std::move(code);
                     choice = std::move(trial);
@@ -124,6 +128,15 @@ class Joining {
                 }
         }
         return best;
+    }
+    // So long that nothing brings it within the limit.
+    bool is_hopeless(const FlowCode& code) const {
+        return slots_of(code) > 2 * limits_of(profile_).total_slots;
+    }
+    // How often the whole may be tidied: about a second's worth.
+    static int trials_for(const FlowCode& code) {
+        const std::size_t length = code.instructions.size() + 1;
+        return static_cast<int>(2'000'000 / (length * length));
     }
 
     FlowCode joined(const std::vector<std::size_t>& choice) const {
@@ -134,7 +147,6 @@ class Joining {
             code.samplers.push_back(sampler.dimension == 3 ? SamplerKind::Volume
                                                            : SamplerKind::Texture2D);
         for (const FlowStep& step : flow_.steps) append(code, step, choice);
-        tidy(code);
         return code;
     }
 

@@ -57,15 +57,19 @@ Result<PixelStage> attempt(const ir::Program& recorded, Profile profile, const L
     auto program = straighten(recorded, plan, profile, notes);
     if (!program) return program.error();
     const ir::Module& module = program->pixel;
+    std::optional<Candidate> best;
     if (profile == Profile::ps_3_0) {
         auto candidate = generate_flow(module, profile, notes);
         if (!candidate) return candidate.error();
-        candidate->notes = std::move(notes);
-        return PixelStage{std::move(*candidate), std::move(*program)};
+        best = std::move(*candidate);
     }
-    auto graph = lower(module, profile, notes);
-    if (!graph) return graph.error();
-    PixelStage result{best_of(module, *graph, profile), std::move(*program)};
+    if (!has_loops(module)) {
+        auto graph = lower(module, profile, notes);
+        if (!graph) return graph.error();
+        Candidate candidate = best_of(module, *graph, profile);
+        if (!best || better(candidate, *best)) best = std::move(candidate);
+    }
+    PixelStage result{std::move(*best), std::move(*program)};
     result.candidate.notes = std::move(notes);
     return result;
 }

@@ -53,4 +53,10 @@ void unroll_others(ir::Module& pixel) {
     });
 }
 
+bool has_loops(const ir::Module& module) {
+    bool found = false;
+    for_each_loop(module, [&](const ir::Instruction&) { found = true; });
+    return found;
+}
+
 }  // namespace intaglio::d3d9

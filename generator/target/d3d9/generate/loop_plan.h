@@ -29,4 +29,7 @@ std::set<std::string> apply(const LoopPlan& plan, ir::Module& pixel, Profile pro
 // Then: all that do not stay are to be unrolled.
 void unroll_others(ir::Module& pixel);
 
+// Whether any loop is left.
+bool has_loops(const ir::Module& module);
+
 }  // namespace intaglio::d3d9
