@@ -26,19 +26,20 @@ void print_formats(const VariantRequest& request, const std::vector<measure::For
     fmt::print("\nhits moved against {}, in texels; greatest offset {:.4g} texture units\n",
                request.split.sections > 1 ? "the same passes in RGBA32F" : "one pass",
                errors.front().code.range);
-    fmt::print("{:<8} {:>8} {:>8} {:>8} {:>8} {:>7} {:>9} {:>9} {:>9} | {:>8} {:>8}\n", "format",
-               "bound", "median", "p99", "max", "beyond", "height", "colour", "rms", "median*",
-               "p99*");
+    fmt::print("{:<8} {:>8} {:>8} {:>8} {:>8} {:>7} {:>9} {:>7} {:>9} {:>9} | {:>8} {:>8}\n",
+               "format", "bound", "median", "p99", "max", "beyond", "height", "shadow", "colour",
+               "rms", "median*", "p99*");
     for (const measure::FormatError& error : errors)
         fmt::print(
-            "{:<8} {:>8.2g} {:>8.2g} {:>8.2g} {:>8.2g} {:>7} {:>9.2g} {:>9.2g} {:>9.2g} | "
+            "{:<8} {:>8.2g} {:>8.2g} {:>8.2g} {:>8.2g} {:>7} {:>9.2g} {:>7} {:>9.2g} {:>9.2g} | "
             "{:>8.3g} {:>8.3g}\n",
             vulkan::name_of(error.code.format), error.bound, error.median, error.p99, error.max,
-            error.beyond, error.height_max, error.colour_max, error.colour_rms, error.hits.median,
-            error.hits.p99);
+            error.beyond, error.height_max, error.visibility_changed, error.colour_max,
+            error.colour_rms, error.hits.median, error.hits.p99);
     fmt::print(
-        "beyond: pixels above the bound; height, colour: greatest change, rms of the colours"
-        "\n* against the exact hit: with the error of the technique\n");
+        "beyond: pixels above the bound; height, colour: greatest change; shadow: pixels whose "
+        "visibility changed by more than half; rms: of the colours\n* against the exact hit: with "
+        "the error of the technique\n");
 }
 
 }  // namespace
