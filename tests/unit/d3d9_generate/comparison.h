@@ -12,7 +12,8 @@ namespace intaglio::d3d9 {
 // not.
 int count_differences(const ir::Program& program, const Shader& shader, int pixels);
 
-// The same of two modules with the same declarations, in the evaluator: pixels with any bit unequal.
+// The same of two modules with the same declarations, in the evaluator: pixels with any bit
+// unequal.
 int count_unequal(const ir::Module& a, const ir::Module& b, int pixels);
 
 }  // namespace intaglio::d3d9

@@ -60,6 +60,8 @@ TEST(Flow, ComputesEverySurfaceWithLoops) {
     cases.push_back({"parallax_occlusion,shadow=fur_depth,output=displaced", {}});
     cases.push_back({"parallax_occlusion,shadow=march", {{"packed", "1"}}});
     cases.push_back({"fur", {}});
+    for (const std::string search : {"cone", "contact_refinement", "relief", "parallax_iterative"})
+        cases.push_back({"search=" + search + ",shadow=soft,output=displaced", {}});
     for (const Case& a_case : cases) {
         SCOPED_TRACE(a_case.name());
         const auto program = record(a_case, Profile::ps_3_0);
