@@ -48,6 +48,20 @@ std::vector<Case> all_cases() {
     Case shadowed{"steep_parallax,shadow=march,output=displaced", steps("3", "3")};
     for (const auto& knob : shadow("8", "8")) shadowed.knobs.push_back(knob);
     cases.push_back(shadowed);
+    for (const Case& search : std::initializer_list<Case>{
+             {"parallax", {{"parallax_scale", "0.5"}, {"parallax_bias", "-0.5"}}},
+             {"parallax_limited", {{"normal_weight", "1"}}},
+             {"parallax_iterative", {{"iterations", "3"}}},
+             {"parallax_occlusion", {{"taps", "3"}, {"attenuation", "1"}}},
+             {"parallax_occlusion", {{"taps", "3"}, {"perspective_bias", "0.7"}}},
+             {"steep_parallax", {{"stride", "1"}, {"min_steps", "2"}, {"max_steps", "5"}}},
+             {"steep_parallax", {{"stride", "2"}, {"min_steps", "3"}, {"max_steps", "3"}}},
+             {"steep_parallax", {{"stride", "3"}, {"min_steps", "3"}, {"max_steps", "3"}}},
+             {"relief", {{"linear_steps", "4"}, {"binary_steps", "2"}}},
+             {"relief_secant", {{"linear_steps", "4"}, {"secant_steps", "1"}}},
+             {"contact_refinement", {{"coarse_steps", "4"}, {"fine_steps", "3"}}},
+             {"exact", {{"max_cells", "2"}}}})
+        cases.push_back({search.surface + ",output=displaced", search.knobs});
     cases.push_back({"parallax_occlusion", {{"taps", "4"}, {"shininess", "2"}}});
     cases.push_back({"parallax_occlusion", {{"taps", "3"}, {"shininess", "8"}}});
     cases.push_back({"parallax_occlusion", {{"taps", "200"}}});
