@@ -153,6 +153,36 @@ TEST(Split, SectionsOnTheDeviceAreTheLongerMarch) {
     }
 }
 
+// Whatever the search: with its own number of steps for each half of the relief, it misses no more
+// and is no further off at the median than with that number for the whole.
+TEST(Split, SectionsMakeNoSearchWorse) {
+    const measure::MapSet set = map_named("cobbles");
+    const measure::Textures textures(set, measure::Filtering::Float);
+    const measure::Shot shot{{35, 250}, {45, 20}, test_scale, size, size};
+    const dsl::Catalogue catalogue = templates::all_techniques();
+    int searched = 0;
+    for (const auto& search : catalogue.searches) {
+        const auto statistics = [&](const VariantRequest& wanted) {
+            const auto errors =
+                measure::shot_errors(device(), catalogue, wanted, set, textures, shot);
+            if (!errors) {
+                EXPECT_EQ(errors.error().code, "split-search") << to_string(errors.error());
+                return measure::HitStatistics{};
+            }
+            return measure::summarize(*errors, size);
+        };
+        const auto halves = statistics(split_request("search=" + search.name, "sections=2"));
+        if (halves.pixels == 0) continue;
+        ++searched;
+        const auto whole = statistics(request("search=" + search.name, "glsl_450"));
+        EXPECT_LE(halves.missed, whole.missed) << search.name;
+        // 1e-4 texels: rounding, for searches that are exact.
+        EXPECT_LE(halves.median, whole.median + 1e-4) << search.name;
+        EXPECT_EQ(halves.invalid, 0) << search.name;
+    }
+    EXPECT_GE(searched, 3) << "none, and every march";
+}
+
 // In perspective the pixel's own place needs the division by w; a place one pixel off would move
 // edges of the relief and shows at once.
 TEST(Split, APassFindsItsOwnPixelInPerspective) {
