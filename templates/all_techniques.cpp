@@ -18,7 +18,12 @@ dsl::Catalogue all_techniques() {
         .presets =
             {
                 {"bump", "search=none"},
+                {"blinn", "search=none,normal=blinn"},
+                {"emboss", "search=none,shading=emboss"},
                 {"fur", "search=steep_parallax,shadow=fur_depth"},
+                {"parallax_occlusion_chapter",
+                 "search=parallax_occlusion,shadow=occlusion_profile"},
+                {"parallax_occlusion_soft", "search=parallax_occlusion,shadow=soft"},
                 {"steep_parallax_shadowed", "search=steep_parallax,shadow=march"},
             },
     };

@@ -34,7 +34,7 @@ class Exact : public Shadow {
   public:
     Knob<int> cells{this,
                     "shadow_cells",
-                    255,
+                    250,
                     at_least{1},
                     at_most{16384},
                     "most texels that the light ray is followed through; beyond them it is free"};

@@ -280,6 +280,72 @@ TEST(Smoothed, IsThePagesLineUnderItsFlippedBitmap) {
     }
 }
 
+// The normals of a field by central differences, as a texture.
+ir::Texture normals_of(const HeightField& field, double scale) {
+    ir::Texture normals;
+    normals.width = field.width;
+    normals.height = field.height;
+    std::vector<float>& texels = normals.levels.emplace_back();
+    for (int y = 0; y < field.height; ++y)
+        for (int x = 0; x < field.width; ++x) {
+            const double du = 1.0 / field.width, dv = 1.0 / field.height;
+            const double u = (x + 0.5) * du, v = (y + 0.5) * dv;
+            const auto h = [&](double s, double t) { return scale * height_at(field, {s, t}); };
+            const Vec3 normal = unit({(h(u - du, v) - h(u + du, v)) / (2 * du),
+                                      (h(u, v - dv) - h(u, v + dv)) / (2 * dv), 1});
+            for (double c : {normal.x, normal.y, normal.z, 1.0})
+                texels.push_back(static_cast<float>(c * 0.5 + 0.5));
+        }
+    return normals;
+}
+
+TEST(Smoothed, SoftensTheSlicesOfAMarch) {
+    // Along four lines of pixels: how far the shade is from that where the ray is met exactly, and
+    // the squared jumps from pixel to pixel, of which a staircase has more than the slope it
+    // climbs.
+    struct Scan {
+        double error = 0, jumps = 0;
+    };
+    for (const char* maker : {"smooth", "noise"}) {
+        const HeightField field = made_field(maker, 64, 64);
+        const double scale = 0.15;
+        const ir::Texture normals = normals_of(field, scale);
+        const auto shades = [&](const std::string& surface, const Knobs& knobs) {
+            const Pixel pixel(surface + ",shading=lambert", field, knobs);
+            std::vector<double> line;
+            for (int i = 0; i < 2048; ++i) {
+                Draw draw{field, {(i % 512) / 512.0, 0.3 + 0.1 * (i / 512)}};
+                draw.scale = scale;
+                draw.normal_map = &normals;
+                draw.to_eye = direction(30, 20);
+                draw.to_light = direction(40, 130);
+                line.push_back(pixel(draw)[0]);
+            }
+            return line;
+        };
+        const std::vector<double> exact = shades("search=exact", {});
+        const auto scan = [&](const std::vector<double>& line) {
+            Scan result;
+            for (std::size_t i = 1; i < line.size(); ++i) {
+                result.error += (line[i] - exact[i]) * (line[i] - exact[i]);
+                result.jumps += (line[i] - line[i - 1]) * (line[i] - line[i - 1]);
+            }
+            return result;
+        };
+        const auto of_march = [&](const char* texels) {
+            return scan(shades("steep_parallax,normal=smoothed",
+                               {{"min_steps", "8"}, {"max_steps", "8"}, {"smoothing", texels}}));
+        };
+        const double slope = scan(exact).jumps;
+        const Scan plain = of_march("0"), two = of_march("2"), eight = of_march("8");
+        EXPECT_GT(plain.jumps, 1.5 * slope) << maker << ": the march shows its slices";
+        EXPECT_LT(two.jumps, 0.97 * plain.jumps) << maker;
+        EXPECT_LT(two.error, plain.error) << maker << ": it also moves towards where the ray hit";
+        EXPECT_LT(eight.jumps - slope, 0.75 * (plain.jumps - slope)) << maker;
+        EXPECT_GT(eight.error, plain.error) << maker << ": more of it blurs";
+    }
+}
+
 TEST(Normals, AreUnitWhateverTheyAreGiven) {
     const HeightField spikes = made_field("spikes", 8, 8);
     for (const auto& row : all_techniques().normals) {
