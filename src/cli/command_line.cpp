@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "src/cli/bake.h"
 #include "src/cli/commands.h"
 
 namespace intaglio::cli {
@@ -231,22 +232,7 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
             chosen = [&, options] { return measure_scene(catalogue, *options); };
         });
     }
-    {
-        auto options = std::make_shared<BakeOptions>();
-        CLI::App* command = app.add_subcommand("bake", "Maps made from a height map");
-        command->require_subcommand(1);
-        CLI::App* normal = command->add_subcommand(
-            "normal", "Tangent-space normals, y along +v (downwards in the picture)");
-        normal->add_option("input", options->input, "Height map, PNG")->required();
-        normal->add_option("-o,--output", options->output, "PNG file")->required();
-        normal->add_option("--scale", options->scale, "Depth of the relief in texture units")
-            ->capture_default_str();
-        normal->add_option("--kernel", options->kernel, "central or sobel")->capture_default_str();
-        normal->add_option("--wrap", options->wrap, "repeat or clamp")->capture_default_str();
-        normal->add_flag("--keep-height", options->keep_height, "Heights in the alpha channel");
-        normal->callback(
-            [&chosen, options] { chosen = [options] { return bake_normal(*options); }; });
-    }
+    add_bake(app, chosen);
 }
 
 }  // namespace

@@ -114,15 +114,6 @@ struct MeasureOptions {
 };
 Status measure_scene(const dsl::Catalogue& catalogue, const MeasureOptions& options);
 
-struct BakeOptions {
-    std::string input, output;
-    double scale = 0.08;
-    std::string kernel = "central";  // central, sobel
-    std::string wrap = "repeat";     // repeat, clamp
-    bool keep_height = false;        // heights in alpha
-};
-Status bake_normal(const BakeOptions& options);
-
 // Writes a product to stdout ("-") or whole to a file.
 Status write_product(const std::string& output, std::string_view bytes, bool binary);
 

@@ -1,4 +1,4 @@
-// `intaglio measure` and `intaglio bake`.
+// `intaglio measure`.
 #include <unistd.h>
 
 #include <filesystem>
@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "src/cli/commands.h"
-#include "src/maps/bake.h"
 #include "src/maps/png.h"
 #include "src/measure/measure.h"
 #include "src/measure/shot.h"
@@ -93,26 +92,6 @@ Status measure_scene(const dsl::Catalogue& catalogue, const MeasureOptions& opti
             return status;
     if (Status status = write_sheets(catalogue, plan, folder); !status) return status;
     return write_product("-", table, false);
-}
-
-Status bake_normal(const BakeOptions& options) {
-    if (options.kernel != "central" && options.kernel != "sobel")
-        return input_error("option-value",
-                           fmt::format("--kernel is central or sobel, not '{}'", options.kernel));
-    if (options.wrap != "repeat" && options.wrap != "clamp")
-        return input_error("option-value",
-                           fmt::format("--wrap is repeat or clamp, not '{}'", options.wrap));
-    const Result<maps::Image> source = maps::read_png(options.input);
-    if (!source) return source.error();
-    const Result<maps::Image> heights = maps::heights_of(*source, maps::HeightSource::Automatic);
-    if (!heights) return heights.error();
-    Result<maps::Image> normals = maps::bake_normal(
-        *heights, options.scale,
-        options.kernel == "central" ? maps::NormalKernel::Central : maps::NormalKernel::Sobel,
-        options.wrap == "repeat" ? maps::Wrap::Repeat : maps::Wrap::Clamp);
-    if (normals && options.keep_height) normals = maps::with_height_in_alpha(*normals, *heights);
-    if (!normals) return normals.error();
-    return maps::write_png(options.output, *normals);
 }
 
 }  // namespace intaglio::cli

@@ -1,11 +1,18 @@
 // Draws from shaders, maps and directions.
 #include "src/measure/render.h"
 
+#include <map>
+
+#include "src/check/reflect.h"
+
 namespace intaglio::measure {
 namespace {
 
+// Textures that a draw wants otherwise than they are.
+using Copies = std::map<std::string, vulkan::Texture>;
+
 vulkan::Draw base_draw(const check::Program& shaders, const Textures& textures, int width,
-                       int height, const PassLink& link) {
+                       int height, const PassLink& link, Copies& copies) {
     vulkan::Draw draw;
     // link_to_spirv names every entry point main, whatever the text called it.
     draw.vertex.spirv = shaders.vertex;
@@ -13,6 +20,13 @@ vulkan::Draw base_draw(const check::Program& shaders, const Textures& textures, 
     draw.textures = {{"height_map", &textures.height},
                      {"normal_map", &textures.normal},
                      {"colour_map", &textures.colour}};
+    for (const std::string& name : shaders.one_level) {
+        const auto found = draw.textures.find(name);
+        if (found == draw.textures.end()) continue;
+        vulkan::Texture& copy = copies[name] = *found->second;
+        copy.levels.resize(1);
+        found->second = &copy;
+    }
     draw.nearest = shaders.nearest;
     if (link.before) draw.textures["displaced_map"] = link.before;
     draw.width = width;
@@ -21,13 +35,30 @@ vulkan::Draw base_draw(const check::Program& shaders, const Textures& textures, 
     return draw;
 }
 
+// The baked maps that the stages read and nobody gave.
+Status add_baked(vulkan::Draw& draw, const Textures& textures) {
+    for (const vulkan::Stage* stage : {&draw.vertex, &draw.fragment}) {
+        const Result<check::Reflection> reflection = check::reflect(stage->spirv);
+        if (!reflection) return reflection.error();
+        for (const check::Reflection::Image& image : reflection->images) {
+            if (draw.textures.contains(image.name)) continue;
+            const Result<const vulkan::Texture*> map = textures.baked->texture(image.name);
+            if (!map) return map.error();
+            if (*map != nullptr) draw.textures[image.name] = *map;
+        }
+    }
+    return Done{};
+}
+
 }  // namespace
 
 Result<vulkan::Program> prepare_quad(const vulkan::Device& device, const check::Program& shaders,
                                      const Textures& textures, double scale, int width, int height,
                                      const Look& look, const PassLink& link) {
     const vulkan::Mesh quad = vulkan::quad();
-    vulkan::Draw draw = base_draw(shaders, textures, width, height, link);
+    Copies copies;
+    vulkan::Draw draw = base_draw(shaders, textures, width, height, link, copies);
+    if (Status status = add_baked(draw, textures); !status) return status.error();
     draw.mesh = &quad;
     draw.uniforms = uniforms_of({}, {}, scale, textures.height.width, textures.height.height, look);
     draw.uniforms.insert(link.uniforms.begin(), link.uniforms.end());
@@ -44,7 +75,9 @@ Status aim(vulkan::Program& program, Direction view, Direction light) {
 Result<vulkan::Program> prepare_mesh(const vulkan::Device& device, const check::Program& shaders,
                                      const Textures& textures, double scale, int width, int height,
                                      const MeshView& view, const Look& look, const PassLink& link) {
-    vulkan::Draw draw = base_draw(shaders, textures, width, height, link);
+    Copies copies;
+    vulkan::Draw draw = base_draw(shaders, textures, width, height, link, copies);
+    if (Status status = add_baked(draw, textures); !status) return status.error();
     draw.mesh = &view.mesh;
     draw.uniforms = uniforms_of({}, {}, scale, textures.height.width, textures.height.height, look);
     draw.uniforms.insert(link.uniforms.begin(), link.uniforms.end());

@@ -394,7 +394,7 @@ TEST_F(CommandLine, UnchangedOutputsKeepTheirTime) {
     EXPECT_EQ(fs::last_write_time(path("fur.frag")), old_time);
 }
 
-TEST_F(CommandLine, BakesNormals) {
+TEST_F(CommandLine, BakesEveryKindOfMap) {
     write_map("height.png", "cobbles", 32, 16);
     EXPECT_EQ(
         run({"bake", "normal", path("height.png"), "-o", path("normal.png"), "--keep-height"}).code,

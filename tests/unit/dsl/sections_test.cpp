@@ -37,6 +37,25 @@ ir::Module record_section(const Search& search, int section, int sections) {
     return module;
 }
 
+// What a flat relief of this height has in the texture of that name: docs/maps.md.
+ir::Texture flat_map(const std::string& name, float height) {
+    ir::Texture map;
+    map.width = map.height = 2;
+    map.levels = {std::vector<float>(16, height)};
+    if (name == "cone_map" || name == "relaxed_cone_map")
+        for (std::size_t alpha = 3; alpha < 16; alpha += 4) map.levels[0][alpha] = 1;
+    if (name == "max_mip_map") map.levels.push_back(std::vector<float>(4, height));
+    if (name == "distance_map") {
+        map.depth = 32;
+        map.levels = {{}};
+        for (int slice = 0; slice < 32; ++slice) {
+            const float floor_of_slice = (static_cast<float>(slice) - 0.5f) / 31;
+            map.levels[0].insert(map.levels[0].end(), 16, std::max(0.0f, floor_of_slice - height));
+        }
+    }
+    return map;
+}
+
 TEST(Sections, ASearchFindsAFlatReliefInItsOwnSection) {
     constexpr float scale = 0.1f;
     for (const Entry<Search>& row : templates::all_techniques().searches)
@@ -46,11 +65,11 @@ TEST(Sections, ASearchFindsAFlatReliefInItsOwnSection) {
                 for (const float height : {0.05f, 0.3f, 0.55f, 0.8f}) {
                     SCOPED_TRACE(row.name + ", section " + std::to_string(section) + " of " +
                                  std::to_string(sections) + ", height " + std::to_string(height));
-                    ir::Texture map;
-                    map.width = map.height = 2;
-                    map.levels = {std::vector<float>(16, height)};
+                    std::vector<ir::Texture> maps;
+                    for (const ir::Sampler& sampler : module.samplers)
+                        maps.push_back(flat_map(sampler.name, height));
                     ir::Environment environment;
-                    environment.samplers = {&map};
+                    for (const ir::Texture& map : maps) environment.samplers.push_back(&map);
                     for (const ir::Uniform& uniform : module.uniforms)
                         environment.uniforms.push_back({uniform.name == "scale"
                                                             ? ir::Environment::Vector{scale}

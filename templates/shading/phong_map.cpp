@@ -1,0 +1,45 @@
+// Fast bump mapping: brightness is read from a phong map at the polygon's own place in it plus the
+// bump's offset; one read in place of products and powers.  "Fast Bump Mapping" (seeds).
+//
+// The source's pointer is the polygon's normal seen along the light's two map vectors and its
+// offsets are the differences of the height map.  Ours: the pointer is where the halfway vector
+// leans, -H.xy, the offset the bumped normal's own lean, N.xy, so that the map's centre is where
+// both agree.  The same map serves diffuse light and highlight, as in the source, where light and
+// eye are one; with the light far from the eye the diffuse part leans halfway to the eye.
+#include "templates/all_techniques.h"
+
+namespace intaglio::templates {
+namespace {
+
+using namespace dsl;
+
+constexpr float edge = 1.125f;  // the offset at the map's edge
+
+class PhongMap : public Shading {
+  public:
+    float3 shade(const Fragment& fragment) const override {
+        const float3 ambient = uniform<3>("ambient", "ambient light, linear rgb");
+        const float3 light_colour = uniform<3>("light_colour", "colour of the light, linear rgb");
+        const float1 gloss = uniform<1>("gloss", "strength of the highlight");
+        const sampler2D map("phong_map", "diffuse light in red, highlight in alpha, by offset");
+
+        const float3 halfway =
+            let("halfway", normalize(let("between", fragment.light + fragment.view)));
+        const float2 offset = let("offset", fragment.normal.xy() - halfway.xy());
+        const float4 brightness =
+            let("brightness", map.sample_level(saturate(offset * (0.5f / edge) + 0.5f), 0.0f));
+        const float1 facing = select(fragment.light.z() > 0.0f, fragment.visibility, 0.0f);
+        return fragment.albedo * (ambient + light_colour * (brightness.x() * facing)) +
+               light_colour * (gloss * brightness.w() * facing);
+    }
+};
+
+}  // namespace
+
+dsl::Entry<dsl::Shading> shading_phong_map() {
+    return dsl::entry<dsl::Shading, PhongMap>(
+        "phong_map", "Brightness from a baked map at the bump's offset: one read",
+        "Fast Bump Mapping");
+}
+
+}  // namespace intaglio::templates
