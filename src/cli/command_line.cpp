@@ -143,6 +143,7 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
         CLI::App* command = app.add_subcommand(
             "explain", "Who spends the slots of a Direct3D 9 variant, by step and line");
         add_variant(*command, options->variant);
+        add_pass(*command, options->variant);
         command->add_flag("--json", options->json, "For programs");
         command->callback([&chosen, &catalogue, options] {
             chosen = [&, options] { return explain(catalogue, *options); };
