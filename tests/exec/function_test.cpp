@@ -118,6 +118,9 @@ TEST_P(PastedFunction, DrawsWhatTheWholeSurfaceDraws) {
     for (const Case& c :
          {Case{"parallax_occlusion,shadow=march,output=displaced", {{"taps", "12"}}},
           Case{"steep_parallax,shadow=march,output=displaced", {{"nyquist", "1"}}},
+          Case{"relief,shadow=march,output=displaced", {}},
+          Case{"parallax_iterative,shadow=march,output=displaced", {{"slope", "0"}}},
+          Case{"steep_parallax,shadow=march,output=displaced", {{"stride", "2"}}},
           Case{"fur,output=displaced", {}}}) {
         const VariantRequest wanted = request(c.surface, target, c.knobs);
         const Variant whole = must(make_variant(templates::all_techniques(), wanted));
