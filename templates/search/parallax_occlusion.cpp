@@ -57,6 +57,10 @@ class ParallaxOcclusion : public Search {
         Step refining("refine", "Intersect the ray with the last segment of the profile.");
         const float1 hit = let("hit", t - step * ratio(below, below - above));
         const float1 moved = fades ? hit * share : hit;
+        // A section begins where the true ray leaves the one above it, which a shortened ray, or a
+        // faded hit, is not on: then it does not say what it found, and so runs in no sections.
+        const bool bent = perspective_bias < 1 || attenuation > 0 || fades;
+        if (bent && relief.sections > 1) return {let("displaced", ray.at(moved)), 1 - hit};
         // Where nothing was found the last gap is the relief's height: there the ray is at 0.
         return {let("displaced", ray.at(moved)), 1 - hit, below >= 0.0f, below};
     }

@@ -226,5 +226,17 @@ TEST(ParallaxOcclusion, KnobsThatAreOffCostNothing) {
         EXPECT_FALSE(steep.has(op)) << ir::info(op).name;
 }
 
+// A section begins where the true ray leaves the one above it.
+TEST(ParallaxOcclusion, OnAShortenedRayItDoesNotSayWhatItFindsInSections) {
+    const Map map = flat_map(0.3);
+    const Ray ray{{0.3, 0.6}, direction(40, 200)};
+    EXPECT_GE(Asked("parallax_occlusion", {}, 0, 2)(map, ray).found, 0);
+    for (const auto& knob :
+         Knobs{{"perspective_bias", "0.9"}, {"attenuation", "1"}, {"fade_level", "2"}}) {
+        EXPECT_EQ(Asked("parallax_occlusion", {knob}, 0, 2)(map, ray).found, -1) << knob.first;
+        EXPECT_GE(Asked("parallax_occlusion", {knob})(map, ray).found, 0) << knob.first;
+    }
+}
+
 }  // namespace
 }  // namespace intaglio::templates
