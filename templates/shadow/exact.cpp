@@ -36,7 +36,7 @@ class Exact : public Shadow {
                     "shadow_cells",
                     250,
                     at_least{1},
-                    at_most{16384},
+                    at_most{4096},
                     "most texels that the light ray is followed through; beyond them it is free"};
     Knob<float> bias{
         this,        "exact_bias",

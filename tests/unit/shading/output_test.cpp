@@ -149,6 +149,51 @@ TEST(Depth, IsFiniteFromBelowAndAlongThePolygon) {
     }
 }
 
+TEST(Depth, IsRefusedWhereTheVertexWorkHandsNothingOn) {
+    class Plain : public dsl::VertexWork {
+        dsl::Vertex transform() const override {
+            const dsl::float3 position = dsl::input<3>("position");
+            return {dsl::float4(position, 1.0f), dsl::input<2>("uv"), position, position};
+        }
+    };
+    dsl::Surface surface = surface_named("search=none,output=depth");
+    surface.vertex = std::make_unique<Plain>();
+    const Result<ir::Program> program = dsl::record_surface(surface, {"glsl_450", {}, false});
+    ASSERT_FALSE(program.ok());
+    EXPECT_EQ(program.error().code, "vertex-depth");
+    surface.output = std::move(surface_named("search=none").output);
+    EXPECT_TRUE(dsl::record_surface(surface, {"glsl_450", {}, false}).ok());
+}
+
+TEST(Knobs, OfEveryPartWorkAtBothEndsOnTargetsWithLoops) {
+    // One part at a time beside plain ones; compositions are the variant tests' business.
+    const dsl::Catalogue catalogue = all_techniques();
+    std::vector<std::string> surfaces;
+    for (const auto& row : catalogue.shadows) surfaces.push_back("search=none,shadow=" + row.name);
+    for (const auto& row : catalogue.normals) surfaces.push_back("search=none,normal=" + row.name);
+    for (const auto& row : catalogue.shadings)
+        surfaces.push_back("search=none,shading=" + row.name);
+    for (const auto& row : catalogue.outputs) surfaces.push_back("search=none,output=" + row.name);
+    for (const std::string& text : surfaces)
+        for (std::size_t i = 0; i < surface_named(text).knobs().size(); ++i)
+            for (bool most : {false, true}) {
+                const dsl::Surface surface = surface_named(text);
+                dsl::KnobBase* knob = surface.knobs()[i];
+                ASSERT_TRUE(knob->set(most ? knob->most() : knob->least()).ok());
+                const Result<ir::Program> program =
+                    dsl::record_surface(surface, {"glsl_450", {}, false});
+                if (!program) {
+                    EXPECT_EQ(program.error().code, "knob-relation") << text << " " << knob->name();
+                    continue;
+                }
+                for (const char* target : {"glsl_450", "essl_100", "hlsl_5_0"}) {
+                    const Result<Emitted> emitted = emit(*program, *find_target(target));
+                    EXPECT_TRUE(emitted.ok()) << text << " " << knob->setting() << " on " << target
+                                              << ": " << to_string(emitted.error());
+                }
+            }
+}
+
 TEST(ClipTile, DropsWhatLeavesTheTile) {
     const HeightField bricks = made_field("bricks", 32, 32);
     const dsl::Surface surface =

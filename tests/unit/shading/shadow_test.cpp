@@ -45,7 +45,7 @@ struct Agreement {
 void expect_exact(Random& random, const HeightField& field, double lowest, double largest_scale,
                   int points, Agreement& agreement) {
     constexpr double bias = 1.0 / 4096;
-    const Visibility exact("exact", field, {{"shadow_cells", "16384"}});
+    const Visibility exact("exact", field, {{"shadow_cells", "4096"}});
     for (int i = 0; i < points; ++i) {
         Draw draw{field};
         // As the shader gets them.
