@@ -123,6 +123,14 @@ TEST(ExactShadow, BeyondItsCellsTheRayIsFree) {
     EXPECT_EQ(Visibility("exact", wall, {{"shadow_cells", "4"}})(draw, 0), 1);
 }
 
+TEST(ExactShadow, APointReportedBelowTheSurfaceIsNotInItsOwnShadow) {
+    const HeightField flat = field_of(16, 16, [](double, double) { return 0.5; });
+    Draw draw{flat};
+    draw.to_light = direction(30, 20);
+    EXPECT_EQ(Visibility("exact", flat)(draw, 0.45), 1);
+    EXPECT_EQ(Visibility("exact", flat)(draw, 0.55), 1) << "nor one above it";
+}
+
 TEST(ExactShadow, ReadsTwiceForEachTexelLine) {
     const HeightField flat = field_of(64, 64, [](double, double) { return 0.0; });
     const Visibility exact("exact", flat);
