@@ -57,6 +57,21 @@ TEST_P(Generate, IsDeterministic) {
     EXPECT_EQ(*first, *second);
 }
 
+// A fade by the map's level needs derivatives as numbers; gradients of reads alone can go.
+TEST(GenerateLimits, RefusesDerivativesWhereThereAreNone) {
+    const Case fading{"parallax_occlusion,output=displaced", {{"taps", "2"}, {"fade_level", "3"}}};
+    const Case shaded{"search=none", {}};
+    for (const Profile profile : {Profile::ps_2_0, Profile::ps_2_b}) {
+        const auto refused = generate_pixel(*record(fading, profile), profile);
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, "d3d9-op");
+        EXPECT_THAT(refused.error().message, HasSubstr("has no derivatives"));
+        EXPECT_TRUE(generate_pixel(*record(shaded, profile), profile));
+    }
+    for (const Profile profile : {Profile::ps_2_a, Profile::ps_3_0})
+        EXPECT_TRUE(generate_pixel(*record(fading, profile), profile));
+}
+
 TEST(GenerateLimits, NamesLimitStepAndLine) {
     const auto program = record({"parallax_occlusion", {{"taps", "60"}}}, Profile::ps_2_0);
     ASSERT_TRUE(program);

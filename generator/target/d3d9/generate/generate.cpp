@@ -10,6 +10,7 @@
 #include "generator/passes/pipeline.h"
 #include "generator/passes/rewrite.h"
 #include "generator/target/d3d9/generate/candidate.h"
+#include "generator/target/d3d9/generate/drop_gradients.h"
 #include "generator/target/d3d9/generate/flow.h"
 #include "generator/target/d3d9/generate/fold_divisions.h"
 #include "generator/target/d3d9/generate/interpolants.h"
@@ -43,6 +44,7 @@ Result<ir::Program> straighten(const ir::Program& program, const LoopPlan& plan,
     auto more = passes::optimize_program(result, options);
     if (!more) return more.error();
     notes.insert(notes.end(), more->begin(), more->end());
+    drop_gradients(result, profile, notes);
     return result;
 }
 

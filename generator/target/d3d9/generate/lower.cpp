@@ -312,7 +312,6 @@ Result<Vec> Lowering::sample(const ir::Instruction& instruction) {
     const ir::Sampler& sampler = module_.samplers[static_cast<std::size_t>(instruction.slot)];
     std::vector<Vec> operands = {value(instruction.operands[0])};
     Opcode op = Opcode::Texld;
-    const bool gradients = profile_ == Profile::ps_2_a || profile_ == Profile::ps_3_0;
     if (instruction.op == ir::Op::SampleLevel) {
         const Ref level = value(instruction.operands[1])[0];
         if (limits_of(profile_).model_3()) {
@@ -332,16 +331,9 @@ Result<Vec> Lowering::sample(const ir::Instruction& instruction) {
                             sampler.name));
         }
     } else if (instruction.op == ir::Op::SampleGrad) {
-        if (gradients) {
-            op = Opcode::Texldd;
-            operands.push_back(value(instruction.operands[1]));
-            operands.push_back(value(instruction.operands[2]));
-        } else {
-            notes_.push_back(
-                fmt::format("{} is read by texld: its level follows the displaced "
-                            "coordinate, {} has no gradients.",
-                            sampler.name, name_of(profile_)));
-        }
+        op = Opcode::Texldd;
+        operands.push_back(value(instruction.operands[1]));
+        operands.push_back(value(instruction.operands[2]));
     }
     Node node;
     node.op = op;
@@ -382,7 +374,10 @@ Result<Vec> Lowering::lower_arithmetic(const ir::Instruction& instruction) {
         case ToFloat: return v[0];
         case Ddx:
         case Ddy:
-            if (profile_ != Profile::ps_2_a && profile_ != Profile::ps_3_0) return v[0];
+            if (profile_ != Profile::ps_2_a && profile_ != Profile::ps_3_0)
+                return refusal("d3d9-op", instruction,
+                               fmt::format("{} has no derivatives; use ps_2_a or ps_3_0",
+                                           name_of(profile_)));
             {
                 // Its operand is placed like a sum of componentwise operands, so the op is one too.
                 Node node;
