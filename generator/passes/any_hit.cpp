@@ -212,4 +212,22 @@ bool stays(const Module& module, const Definitions& definitions, const FirstHitL
            Growth(module, definitions, search).grows(compared->greater);
 }
 
+bool is_above_texels(const Module& module, const Definitions& definitions,
+                     const FirstHitLoop& search, const AnyHit& any) {
+    const auto is_computed = [&](ValueId value) {
+        return search.is_inside(value) && !search.parameter(value) && !search.is_index(value);
+    };
+    if (!any.stop || !is_computed(*any.stop)) return false;
+    const auto stop = comparison_of(module, search.instruction(*any.stop));
+    const auto height = search.parameter(any.hit.greater);
+    if (!stop || stop->greater != any.hit.lesser || search.is_inside(stop->lesser) || !height)
+        return false;
+    const Definition& top = definitions[stop->lesser];
+    if (top.op != Op::Constant || std::bit_cast<float>(top.bits[0]) < 1.0f) return false;
+    ValueId next = search.next_value(*height);
+    while (is_computed(next) && search.instruction(next).op == Op::Swizzle)
+        next = search.instruction(next).operands[0];
+    return is_computed(next) && is_sample(search.instruction(next).op);
+}
+
 }  // namespace intaglio::passes

@@ -42,4 +42,9 @@ std::optional<AnyHit> find_any_hit(const ir::Module& module, const ir::Region& r
 bool stays(const ir::Module& module, const Definitions& definitions, const FirstHitLoop& search,
            ir::ValueId condition);
 
+// True if the stop, which stays, says that the hit's lesser side has reached 1 and the greater side
+// is a texel of the iteration before: texels in [0, 1] do not hit any more.
+bool is_above_texels(const ir::Module& module, const Definitions& definitions,
+                     const FirstHitLoop& search, const AnyHit& any);
+
 }  // namespace intaglio::passes

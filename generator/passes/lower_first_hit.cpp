@@ -23,7 +23,6 @@ constexpr int most_special_iterations =
 constexpr std::size_t register_width = 4;
 
 constexpr float free_distance = 0x1p-22f;  // Rounding::Free
-
 float as_float(const ConstantBits& bits) { return std::bit_cast<float>(bits[0]); }
 
 bool is_key(const Table& table) {
@@ -70,7 +69,8 @@ class Lowering {
         std::vector<ValueId> gaps;
         for (int i = 0; i <= search_.trips(); ++i)
             gaps.push_back(op(Op::Sub, {at(any.hit.greater, i), at(any.hit.lesser, i)}));
-        if (any.stop) {
+        if (any.stop && (rounding_ == Rounding::Exact ||
+                         !is_above_texels(module_, definitions_, search_, any))) {
             const ValueId no_hit = constant(ConstantBits{float_bits(-1.0f), 0, 0, 0});
             std::vector<ValueId> stops;
             for (int i = 0; i < search_.trips(); ++i) stops.push_back(at(*any.stop, i));

@@ -61,7 +61,8 @@ using ChooseFirstHit = std::function<FirstHitForm(const FirstHit&)>;
 // With Rounding::Free results may differ by what a place that is 2^-22 of the ray away changes,
 // which allows more keys: those that end within 2^-22 of zero count as ending there.  Zero times
 // what is read or passed is zero.  And a result that differs in the first iteration, where the
-// search has nothing behind it, is told by the values at the hit.
+// search has nothing behind it, is told by the values at the hit.  A shadow ray above 1 is above
+// all texels, which lie in [0, 1] then.
 enum class Rounding { Exact, Free };
 std::vector<FirstHit> lower_first_hit(ir::Module& module, const ChooseFirstHit& choose,
                                       Rounding rounding = Rounding::Exact);

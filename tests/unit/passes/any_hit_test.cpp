@@ -204,5 +204,28 @@ TEST(LowerFirstHit, OneRayAfterAnother) {
     expect_same(loop, any, 500, 100, Maps::Sane);
 }
 
+// With texels in [0, 1], a shadow ray that has left through the top needs no test for it.
+TEST(AnyHit, FreeRoundingDropsTheStopAtTheTop) {
+    const Module loop =
+        technique("steep_parallax,shadow=march,output=displaced", {{"min_steps", "4"},
+                                                                   {"max_steps", "4"},
+                                                                   {"shadow_min_steps", "8"},
+                                                                   {"shadow_max_steps", "8"}});
+    const auto choose = [](const FirstHit& hit) {
+        return hit.only_whether ? FirstHitForm::AnyHit : FirstHitForm::Chain;
+    };
+    const auto lowered = [&](Rounding rounding) {
+        Module module = loop;
+        EXPECT_EQ(lower_first_hit(module, choose, rounding).size(), 2u);
+        EXPECT_TRUE(
+            optimize(module, {.unroll_all = true, .flatten_all = true, .verify_each = true}).ok());
+        return module;
+    };
+    const Module exact = lowered(Rounding::Exact), free = lowered(Rounding::Free);
+    expect_same(loop, exact, 400, 60, Maps::Sane);
+    expect_same(loop, free, 400, 60, Maps::Sane);
+    EXPECT_EQ(cost_of(free).selects, cost_of(exact).selects - 8) << "one for each step";
+}
+
 }  // namespace
 }  // namespace intaglio::passes

@@ -54,7 +54,7 @@ class Allocator {
         int order = 0;
         bool written = false;
     };
-    using Lanes = std::array<Interval, 4>;
+    using Lanes = std::array<std::vector<Interval>, 4>;  // from each write to its last read
 
     void find_intervals() {
         for (std::size_t i = 0; i < code_.instructions.size(); ++i) {
@@ -66,14 +66,15 @@ class Allocator {
                 Lanes& lanes = intervals_[static_cast<std::size_t>(source.index)];
                 const Mask mask = positions_read(instruction);
                 for (std::size_t k = 0; k < 4; ++k)
-                    if ((mask >> k & 1) != 0)
-                        lanes[source.swizzle[k]].end =
-                            std::max(lanes[source.swizzle[k]].end, 2 * now);
+                    if ((mask >> k & 1) != 0 && !lanes[source.swizzle[k]].empty())
+                        lanes[source.swizzle[k]].back().end =
+                            std::max(lanes[source.swizzle[k]].back().end, 2 * now);
             }
             if (instruction.target < 0) continue;
             Lanes& lanes = intervals_[static_cast<std::size_t>(instruction.target)];
             for (std::size_t k = 0; k < 4; ++k)
-                if ((instruction.mask >> k & 1) != 0) lanes[k] = {2 * now + 1, 2 * now + 1};
+                if ((instruction.mask >> k & 1) != 0)
+                    lanes[k].push_back({2 * now + 1, 2 * now + 1});
         }
     }
     void find_budgets() {
@@ -112,17 +113,18 @@ class Allocator {
     bool is_free(const Register& candidate, const Lanes& wanted, Mask mask, int shift) const {
         for (int k = 0; k < 4; ++k) {
             if ((mask >> k & 1) == 0) continue;
-            const Interval& mine = wanted[static_cast<std::size_t>(k)];
-            for (const Interval& other : candidate.busy[static_cast<std::size_t>(k + shift)])
-                if (mine.begin <= other.end && other.begin <= mine.end) return false;
+            for (const Interval& mine : wanted[static_cast<std::size_t>(k)])
+                for (const Interval& other : candidate.busy[static_cast<std::size_t>(k + shift)])
+                    if (mine.begin <= other.end && other.begin <= mine.end) return false;
         }
         return true;
     }
     // What lives there and is read later must not come to wait for more than it may.
     bool disturbs(const Register& candidate, int order, int now) const {
         for (const std::size_t resident : candidate.residents)
-            for (const Interval& interval : intervals_[resident])
-                if (interval.end > 2 * now + 1 && order > budget_[resident]) return true;
+            for (const std::vector<Interval>& lane : intervals_[resident])
+                if (!lane.empty() && lane.back().end > 2 * now + 1 && order > budget_[resident])
+                    return true;
         return false;
     }
     int busy_lanes(const Register& candidate, int time) const {
@@ -177,8 +179,8 @@ class Allocator {
         chosen.residents.push_back(target);
         for (int k = 0; k < 4; ++k)
             if ((mask >> k & 1) != 0)
-                chosen.busy[static_cast<std::size_t>(k + best_shift)].push_back(
-                    wanted[static_cast<std::size_t>(k)]);
+                for (const Interval& interval : wanted[static_cast<std::size_t>(k)])
+                    chosen.busy[static_cast<std::size_t>(k + best_shift)].push_back(interval);
         return true;
     }
 

@@ -65,6 +65,10 @@ std::optional<Swizzle> find_swizzle(const std::array<int, 4>& lanes, const Limit
 Code place(const Graph& graph, const std::vector<int>& order, const Limits& limits,
            const std::vector<int>& uniform_registers);
 
+// Drops moves by letting two virtual registers be one, lanes of which are then written again when
+// nothing reads them any more.
+void coalesce(Code& code);
+
 // Outputs of vertex shaders take lanes, signs and any arithmetic: what a mov to an output alone
 // reads is written there instead, and the mov goes.
 void write_outputs_directly(Code& code);

@@ -25,10 +25,19 @@ class Finish {
         const std::vector<int> uniforms = assign_uniforms(module_, graph, next);
         graph_ = &graph;
         Code code = place(graph, order, limits_, uniforms);
+        Allocation allocation = allocate(code, limits_);
+        if (limits_.pixel()) {
+            Code merged = code;
+            coalesce(merged);
+            Allocation with_less = allocate(merged, limits_);
+            if (!with_less.failure || allocation.failure) {
+                code = std::move(merged);
+                allocation = std::move(with_less);
+            }
+        }
         Limits unlimited = limits_;
         unlimited.constants = no_limit;
         result_.shader.definitions = *pool_constants(code, unlimited, next);
-        const Allocation allocation = allocate(code, limits_);
         result_.failure = allocation.failure;
         result_.failed_at = allocation.failed_at;
         for (const VirtualInstruction& instruction : code.instructions)

@@ -65,8 +65,9 @@ int cost_of(const Graph& graph, const Limits& limits, const std::vector<int>& un
     const std::vector<int> order = order_of(graph, Order::Heavy);
     if (order.empty()) return 1 << 20;
     int slots = 0;
-    for (const VirtualInstruction& instruction :
-         place(graph, order, limits, uniform_registers).instructions)
+    Code code = place(graph, order, limits, uniform_registers);
+    if (limits.pixel()) coalesce(code);
+    for (const VirtualInstruction& instruction : code.instructions)
         slots += info(instruction.op).arithmetic_slots;
     return slots;
 }

@@ -15,6 +15,7 @@ class Rules {
         // Nodes that rules add are done already.
         const std::size_t count = graph_.nodes.size();
         for (std::size_t i = 0; i < count; ++i) {
+            constant_difference(static_cast<int>(i));
             constant_last(static_cast<int>(i));
             common_term_of_choice(static_cast<int>(i));
             difference_to_choice(static_cast<int>(i));
@@ -74,6 +75,32 @@ class Rules {
         node.kind = Node::Kind::Constant;
         node.bits = bits;
         return add(std::move(node));
+    }
+
+    // x - (x + c) = -c
+    void constant_difference(int index) {
+        if (!is_op(index, Opcode::Add) || at(index).width != 1) return;
+        for (std::size_t side = 0; side < 2; ++side) {
+            const Operand inner = at(index).operands[side], x = at(index).operands[1 - side];
+            const int sum = whole(inner, Opcode::Add);
+            if (sum < 0 || inner.negate == x.negate) continue;
+            for (std::size_t k = 0; k < 2; ++k) {
+                const Operand c = at(sum).operands[k], y = at(sum).operands[1 - k];
+                if (!is_constant(c) || y.lanes != x.lanes || y.negate) continue;
+                replace(index, signed_by(c, inner.negate).lanes[0]);
+                return;
+            }
+        }
+    }
+    // Everything that reads the node reads the other instead.
+    void replace(int index, Lane other) {
+        const auto apply = [&](Operand& operand) {
+            for (Lane& lane : operand.lanes)
+                if (lane.node == index) lane = other;
+        };
+        for (Node& node : graph_.nodes)
+            for (Operand& operand : node.operands) apply(operand);
+        for (Operand& output : graph_.outputs) apply(output);
     }
 
     // x + s (y + c) = (x + s y) + s c: the constant moves out, to meet others.

@@ -2,7 +2,9 @@
 // alike terms take n / 4 instructions, n / 4 - 1 maxima of vectors and two within the last one.
 // The pairwise joining of pack() finds this only for few terms.
 #include <algorithm>
+#include <bit>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -18,20 +20,36 @@ using Lanes = std::vector<Lane>;
 
 class Reduction {
   public:
-    Reduction(Graph& graph, const std::vector<int>& users, int root)
+    // `sign_only`: whether the result is below zero is all that is asked.
+    Reduction(Graph& graph, const std::vector<int>& users, int root, bool sign_only)
         : graph_(graph), users_(users), op_(at(root).op), origin_(at(root).origin) {
         collect(root);
+        if (sign_only && op_ == Opcode::Max) drop_negative_constants();
         if (terms_.size() < register_width) return;
+        const std::optional<Operand> common = take_common_addend();
         Lanes total;
         for (Lanes& part : parts()) total = total.empty() ? part : joined(total, part);
+        if (common) total = {last_add(total, *common)};
         for (const Lane lane : constants_) total = joined(total, {lane});
         while (total.size() > 1) total = halved(total);
-        at(root).operands = std::vector<Operand>(graph_.node(total[0]).operands);
+        for (const Operand& operand : negated_) {
+            Node node;
+            node.op = op_;
+            node.origin = origin_;
+            node.operands = {{total, false}, operand};
+            total = lanes_of(add(std::move(node)));
+        }
+        const Node last = graph_.node(total[0]);
+        at(root).op = last.op;
+        at(root).operands = last.operands;
     }
 
   private:
     Node& at(int index) { return graph_.nodes[static_cast<std::size_t>(index)]; }
-    bool is_own(int index) const { return users_[static_cast<std::size_t>(index)] == 1; }
+    bool is_own(int index) const {
+        const auto i = static_cast<std::size_t>(index);
+        return i < users_.size() && users_[i] == 1;
+    }
 
     // The tree's leaves.
     void collect(int index) {
@@ -41,16 +59,62 @@ class Reduction {
             const bool inner = node.kind == Node::Kind::Op && node.op == op_ && node.width == 1 &&
                                !node.saturate && is_own(lane.node);
             if (operand.negate) {
-                Node mov;
-                mov.operands = {operand};
-                mov.origin = node.origin;
-                terms_.push_back({add(std::move(mov)), 0});
+                negated_.push_back(operand);
             } else if (inner) {
                 collect(lane.node);
             } else {
                 (node.kind == Node::Kind::Constant ? constants_ : terms_).push_back(lane);
             }
         }
+    }
+
+    // What a term is the sum of.
+    std::vector<Operand> addends_of(const Operand& sum) const {
+        const Lane lane = sum.lanes[0];
+        const Node& node = graph_.node(lane);
+        if (sum.negate || node.kind != Node::Kind::Op || node.op != Opcode::Add ||
+            node.width != 1 || node.saturate || !is_own(lane.node))
+            return {sum};
+        std::vector<Operand> addends;
+        for (const Operand& operand : node.operands)
+            for (Operand& addend : addends_of(operand)) addends.push_back(std::move(addend));
+        return addends;
+    }
+    // max (a + b + x, c + d + x) = max (a + b, c + d) + x: the terms without x.
+    std::optional<Operand> take_common_addend() {
+        std::vector<std::vector<Operand>> sums;
+        for (const Lane term : terms_) {
+            sums.push_back(addends_of({{term}, false}));
+            if (sums.back().size() != 3) return std::nullopt;
+        }
+        for (const Operand& common : std::vector<Operand>(sums[0])) {
+            const auto has_it = [&](const std::vector<Operand>& sum) {
+                return std::find(sum.begin(), sum.end(), common) != sum.end();
+            };
+            if (!std::all_of(sums.begin(), sums.end(), has_it)) continue;
+            for (std::size_t i = 0; i < sums.size(); ++i) {
+                sums[i].erase(std::find(sums[i].begin(), sums[i].end(), common));
+                at(terms_[i].node).operands = sums[i];
+            }
+            return common;
+        }
+        return std::nullopt;
+    }
+    Lane last_add(Lanes total, const Operand& addend) {
+        while (total.size() > 1) total = halved(total);
+        Node node;
+        node.op = Opcode::Add;
+        node.origin = origin_;
+        node.operands = {{total, false}, addend};
+        return {add(std::move(node)), 0};
+    }
+
+    void drop_negative_constants() {
+        const auto negative = [&](Lane lane) {
+            return std::bit_cast<float>(graph_.node(lane).bits) < 0;
+        };
+        constants_.erase(std::remove_if(constants_.begin(), constants_.end(), negative),
+                         constants_.end());
     }
 
     // What instructions must have in common to become one.
@@ -153,12 +217,27 @@ class Reduction {
     const Opcode op_;
     const ir::Origin origin_;
     Lanes terms_, constants_;
+    std::vector<Operand> negated_;  // last, where a sign costs nothing
     std::set<int> doubled_;
 };
 
 bool is_extreme(const Node& node) {
     return node.kind == Node::Kind::Op && (node.op == Opcode::Max || node.op == Opcode::Min) &&
            node.width == 1 && !node.operands.empty();
+}
+
+// Read by nothing but the first operand of cmp, as it is.
+bool is_only_tested(const Graph& graph, int index) {
+    const auto reads = [&](const Operand& operand) {
+        return std::any_of(operand.lanes.begin(), operand.lanes.end(),
+                           [&](Lane lane) { return lane.node == index; });
+    };
+    for (const Node& node : graph.nodes)
+        for (std::size_t k = 0; k < node.operands.size(); ++k)
+            if (reads(node.operands[k]) &&
+                (node.op != Opcode::Cmp || k > 0 || node.operands[k].negate))
+                return false;
+    return std::none_of(graph.outputs.begin(), graph.outputs.end(), reads);
 }
 
 }  // namespace
@@ -178,7 +257,8 @@ Graph with_wide_reductions(const Graph& graph) {
     }
     for (std::size_t i = 0; i < graph.nodes.size(); ++i)
         if (is_extreme(graph.nodes[i]) && !inner.contains(static_cast<int>(i)))
-            Reduction(result, users, static_cast<int>(i));
+            Reduction(result, users, static_cast<int>(i),
+                      is_only_tested(graph, static_cast<int>(i)));
     drop_dead(result);
     return result;
 }
