@@ -204,16 +204,24 @@ std::set<std::string> read_by_level(const ir::Module& module, const ir::Region& 
 
 }  // namespace
 
+TextureReading reading_of(const Variant& variant) {
+    TextureReading reading;
+    if (!variant.target->capabilities.texture_levels)
+        reading.one_level = read_by_level(variant.program.pixel, variant.program.pixel.body);
+    for (const ir::Module* module : {&variant.program.vertex, &variant.program.pixel})
+        for (const ir::Sampler& sampler : module->samplers)
+            if (sampler.filter == ir::Sampler::Filter::Nearest)
+                reading.nearest.insert(sampler.name);
+    return reading;
+}
+
 Result<check::Program> link_variant(const Variant& variant) {
     Result<check::Program> program =
         profile_of(*variant.target) ? link_bytecode(variant) : link_text(variant);
     if (!program) return program;
-    if (!variant.target->capabilities.texture_levels)
-        program->one_level = read_by_level(variant.program.pixel, variant.program.pixel.body);
-    for (const ir::Module* module : {&variant.program.vertex, &variant.program.pixel})
-        for (const ir::Sampler& sampler : module->samplers)
-            if (sampler.filter == ir::Sampler::Filter::Nearest)
-                program->nearest.insert(sampler.name);
+    TextureReading reading = reading_of(variant);
+    program->one_level = std::move(reading.one_level);
+    program->nearest = std::move(reading.nearest);
     return program;
 }
 

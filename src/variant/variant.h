@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -74,6 +75,12 @@ std::optional<d3d9::Profile> profile_of(const Target& target);
 bool is_judged(const Target& target);
 check::Source source_of(const Variant& variant, ir::Stage stage);
 
+// How the variant's textures are to be given, by name: see check::Program.
+struct TextureReading {
+    std::set<std::string> one_level, nearest;
+};
+TextureReading reading_of(const Variant& variant);
+
 // Both stages as SPIR-V that fit each other, ready to run.  For the target `spirv` the optimised
 // modules, for Direct3D 9 what MojoShader makes of the bytecode.  Error "not-runnable" for `none`,
 // for glsl_120 and essl_100, which end after the front end, and for a vertex profile alone.
@@ -86,6 +93,8 @@ struct Judged {
     std::vector<d3d9::Shader>
         shaders;  // Direct3D 9: the stages there are, as decoded from their bytes
 };
+// A stage of a Direct3D 9 variant as decoded from its bytes: what a device would load.
+Result<d3d9::Shader> decode_stage(const Variant& variant, ir::Stage stage);
 // Both stages through every witness there is for the target.  Error "no-witness" for a target
 // without one.
 Result<Judged> judge_variant(const Variant& variant);

@@ -1,0 +1,197 @@
+// Bytes to pixels by the interpreter.
+#include "src/measure/interpreted.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <thread>
+
+#include <fmt/format.h>
+
+namespace intaglio::measure {
+namespace {
+
+// The texture as the device would hold it.
+ir::Texture texture_of(const vulkan::Texture& from, bool one_level, bool nearest) {
+    const auto filter_of = [&](vulkan::Texture::Filter filter) {
+        return nearest || filter == vulkan::Texture::Filter::Nearest ? ir::Texture::Filter::Nearest
+                                                                     : ir::Texture::Filter::Linear;
+    };
+    ir::Texture made;
+    made.width = from.width;
+    made.height = from.height;
+    made.depth = std::max(1, from.depth);
+    made.filter = filter_of(from.filter);
+    made.mip_filter = filter_of(from.mip_filter);
+    made.wrap = from.wrap == vulkan::Texture::Wrap::Repeat ? ir::Texture::Wrap::Repeat
+                                                           : ir::Texture::Wrap::Clamp;
+    if (from.format == vulkan::Texture::Format::Rgba8Unorm)
+        made.weights = ir::Texture::Weights::EightBit;
+    for (const std::vector<float>& level : from.levels) {
+        made.levels.push_back(vulkan::decode(vulkan::encode(level, from.format), from.format));
+        if (one_level) break;
+    }
+    return made;
+}
+
+// The textures that a shader names.
+std::vector<std::string> textures_in(const d3d9::Shader& shader) {
+    std::vector<std::string> names;
+    for (const d3d9::Constant& constant : shader.constants)
+        if (constant.set == d3d9::Constant::Set::Sampler) names.push_back(constant.name);
+    return names;
+}
+
+// Runs `row(y)` for every second y, spread over the machine's cores; false stops them.
+template <typename Row>
+bool for_each_second_row(int height, const Row& row) {
+    const int workers = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    std::atomic<bool> fine = true;
+    std::vector<std::jthread> threads;
+    for (int worker = 0; worker < workers; ++worker)
+        threads.emplace_back([&, worker] {
+            for (int y = 2 * worker; y < height && fine; y += 2 * workers)
+                if (!row(y)) fine = false;
+        });
+    threads.clear();
+    return fine;
+}
+
+}  // namespace
+
+Status InterpretedQuad::add_textures(const Variant& variant, const Textures& textures) {
+    const TextureReading reading = reading_of(variant);
+    for (const d3d9::Shader* shader : {&vertex_, &pixel_})
+        for (const std::string& name : textures_in(*shader)) {
+            const vulkan::Texture* source = name == "height_map"   ? &textures.height
+                                            : name == "normal_map" ? &textures.normal
+                                            : name == "colour_map" ? &textures.colour
+                                                                   : nullptr;
+            // Baked maps keep their levels, whatever the language: prepare_quad does the same.
+            const bool one_level = source != nullptr && reading.one_level.contains(name);
+            if (source == nullptr) {
+                const Result<const vulkan::Texture*> baked = textures.baked->texture(name);
+                if (!baked) return baked.error();
+                source = *baked;
+            }
+            // A name that nobody has stays missing: environment_of says so.
+            if (source != nullptr)
+                textures_.try_emplace(
+                    name, texture_of(*source, one_level, reading.nearest.contains(name)));
+        }
+    return Done{};
+}
+
+Result<InterpretedQuad> InterpretedQuad::prepare(const Variant& variant, const Textures& textures,
+                                                 double scale, int width, int height,
+                                                 const Look& look) {
+    if (variant.vertex.bytecode.bytes.empty() || variant.pixel.bytecode.bytes.empty() ||
+        !profile_of(*variant.target))
+        return input_error("not-interpreted",
+                           fmt::format("{} has no Direct3D 9 bytecode of both stages; take ps_2_0, "
+                                       "ps_2_a, ps_2_b or ps_3_0",
+                                       variant.target->name));
+    Result<d3d9::Shader> vertex = decode_stage(variant, ir::Stage::Vertex);
+    if (!vertex) return vertex.error();
+    Result<d3d9::Shader> pixel = decode_stage(variant, ir::Stage::Pixel);
+    if (!pixel) return pixel.error();
+    Result<d3d9::Interpreter> run_vertex = d3d9::Interpreter::prepare(*vertex);
+    if (!run_vertex) return run_vertex.error();
+    Result<d3d9::Interpreter> run_pixel = d3d9::Interpreter::prepare(*pixel);
+    if (!run_pixel) return run_pixel.error();
+    InterpretedQuad quad(std::move(*vertex), std::move(*pixel), std::move(*run_vertex),
+                         std::move(*run_pixel));
+    if (Status status = quad.add_textures(variant, textures); !status) return status.error();
+    for (const d3d9::Declaration& declaration : quad.pixel_.declarations) {
+        const d3d9::File file = declaration.target.file;
+        if (quad.pixel_.profile == d3d9::Profile::ps_3_0) {
+            if (file == d3d9::File::Input)
+                quad.links_.push_back({declaration.usage, declaration.usage_index});
+        } else if (file == d3d9::File::Texture || file == d3d9::File::Input) {
+            quad.links_.push_back(
+                {file == d3d9::File::Texture ? d3d9::Usage::Texcoord : d3d9::Usage::Color,
+                 declaration.target.index});
+        }
+    }
+    quad.look_ = look;
+    quad.scale_ = scale;
+    quad.width_ = width;
+    quad.height_ = height;
+    quad.map_width_ = textures.height.width;
+    quad.map_height_ = textures.height.height;
+    return quad;
+}
+
+Result<InterpretedQuad> InterpretedQuad::with_partial_precision() const {
+    InterpretedQuad half = *this;
+    for (d3d9::Instruction& instruction : half.pixel_.instructions)
+        if (instruction.destination) instruction.destination->partial_precision = true;
+    Result<d3d9::Interpreter> run_pixel = d3d9::Interpreter::prepare(half.pixel_);
+    if (!run_pixel) return run_pixel.error();
+    half.run_pixel_ = std::move(*run_pixel);
+    return half;
+}
+
+d3d9::Inputs InterpretedQuad::inputs_of(const d3d9::Environment& environment, int x, int y) const {
+    const float u = (static_cast<float>(x) + 0.5f) / static_cast<float>(width_);
+    const float v = (static_cast<float>(y) + 0.5f) / static_cast<float>(height_);
+    // The attributes of vulkan::quad(), with Direct3D's 0 and 1 for components that are not there.
+    d3d9::Inputs vertex;
+    d3d9::set_input(vertex_, vertex, d3d9::Usage::Position, 0, {u, v, 0, 1});
+    d3d9::set_input(vertex_, vertex, d3d9::Usage::Normal, 0, {0, 0, 1, 1});
+    d3d9::set_input(vertex_, vertex, d3d9::Usage::Tangent, 0, {1, 0, 0, 1});
+    d3d9::set_input(vertex_, vertex, d3d9::Usage::Texcoord, 0, {u, v, 0, 1});
+    const d3d9::Execution done = run_vertex_.run(environment, vertex, d3d9::Arithmetic::Fp32);
+    d3d9::Inputs pixel;
+    for (const Link& link : links_)
+        d3d9::set_input(pixel_, pixel, link.usage, link.index,
+                        d3d9::output_of(vertex_, done, link.usage, link.index));
+    pixel.position = {static_cast<float>(x), static_cast<float>(y), 0, 0};
+    return pixel;
+}
+
+Result<InterpretedPicture> InterpretedQuad::draw(Direction view, Direction light,
+                                                 d3d9::Arithmetic arithmetic) const {
+    const auto uniforms = uniforms_of(view, light, scale_, map_width_, map_height_, look_);
+    std::map<std::string, const ir::Texture*> textures;
+    for (const auto& [name, texture] : textures_) textures[name] = &texture;
+    const Result<d3d9::Environment> for_vertex = environment_of(vertex_, uniforms, textures);
+    if (!for_vertex) return for_vertex.error();
+    const Result<d3d9::Environment> for_pixel = environment_of(pixel_, uniforms, textures);
+    if (!for_pixel) return for_pixel.error();
+
+    InterpretedPicture result;
+    const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+    result.picture = {width_, height_, std::vector<std::array<float, 4>>(pixels)};
+    std::vector<int> reads(pixels);
+    const bool complete = for_each_second_row(height_, [&](int y) {
+        for (int x = 0; x < width_; x += 2) {
+            std::array<d3d9::Inputs, 4> inputs;
+            for (int i = 0; i < 4; ++i)
+                inputs[static_cast<std::size_t>(i)] = inputs_of(*for_vertex, x + i % 2, y + i / 2);
+            const auto quad = run_pixel_.run_quad(*for_pixel, inputs, arithmetic);
+            for (int i = 0; i < 4; ++i) {
+                // An odd size has half a quad at its edge.
+                if (x + i % 2 >= width_ || y + i / 2 >= height_) continue;
+                const d3d9::Execution& done = quad[static_cast<std::size_t>(i)];
+                const auto at = static_cast<std::size_t>((y + i / 2) * width_ + x + i % 2);
+                if (!done.complete) return false;
+                if (!done.killed) result.picture.pixels[at] = done.colours[0];
+                reads[at] = done.texture_reads;
+            }
+        }
+        return true;
+    });
+    if (!complete)
+        return input_error("endless-shader",
+                           "the pixel shader was stopped: its loops do not come to an end");
+    double sum = 0;
+    for (int count : reads) {
+        sum += count;
+        result.reads_max = std::max(result.reads_max, count);
+    }
+    result.reads_mean = sum / static_cast<double>(pixels);
+    return result;
+}
+
+}  // namespace intaglio::measure
