@@ -3,21 +3,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "src/check/spirv.h"
+#include "src/measure/interpreted.h"
 #include "src/measure/render.h"
 
 namespace intaglio::measure {
 namespace {
 
 // A row's two shaders: the one that says where it hit and how much it read, and the one people
-// would ship.
+// would ship.  Of Direct3D 9 the first is interpreted, which needs no counter in the shader.
 struct CompiledRow {
+    std::optional<Variant> bytecode;
     check::Program instrumented;
     check::Program shaded;
     check::SpirvCost cost;
+    std::optional<d3d9::Resources> slots;
     std::vector<std::string> settings;
 };
 
@@ -35,12 +39,22 @@ Result<CompiledRow> compile_row(const dsl::Catalogue& catalogue, const VariantRe
         check::count_spirv(*optimized, longest_loop(shaded->program));
     if (!cost) return cost.error();
     row.cost = *cost;
+    const bool is_bytecode = profile_of(*shaded->target).has_value();
+    if (is_bytecode) {
+        const Result<d3d9::Shader> shader = decode_stage(*shaded, ir::Stage::Pixel);
+        if (!shader) return shader.error();
+        row.slots = d3d9::count(*shader);
+    }
 
     VariantRequest instrumented = request;
     instrumented.surface = dsl::with_part(request.surface, "output", "displaced");
-    instrumented.count_reads = true;
-    const Result<Variant> variant = make_variant(catalogue, instrumented);
+    instrumented.count_reads = !is_bytecode;
+    Result<Variant> variant = make_variant(catalogue, instrumented);
     if (!variant) return variant.error();
+    if (is_bytecode) {
+        row.bytecode = std::move(*variant);
+        return row;
+    }
     linked = link_variant(*variant);
     if (!linked) return linked.error();
     row.instrumented = std::move(*linked);
@@ -71,24 +85,51 @@ void count_reads(const vulkan::Picture& reads, CaseResult& result) {
     result.reads_mean = sum / static_cast<double>(reads.pixels.size());
 }
 
+// A row's instrumented shader, by the device or interpreted.
+struct PreparedHits {
+    std::optional<vulkan::Program> program;
+    std::optional<InterpretedQuad> bytecode, in_half;
+};
+
 // Prepared programs of all rows on one map.
 struct PreparedMap {
     reference::HeightField field;
-    std::vector<vulkan::Program> instrumented, shaded;
+    std::vector<PreparedHits> instrumented;
+    std::vector<vulkan::Program> shaded;
 };
+
+Result<PreparedHits> prepare_hits(const vulkan::Device& device, const Plan& plan,
+                                  const CompiledRow& row, const Textures& textures) {
+    PreparedHits hits;
+    if (row.bytecode) {
+        Result<InterpretedQuad> quad =
+            InterpretedQuad::prepare(*row.bytecode, textures, plan.scale, plan.size, plan.size);
+        if (!quad) return quad.error();
+        Result<InterpretedQuad> in_half = quad->with_partial_precision();
+        if (!in_half) return in_half.error();
+        hits.bytecode = std::move(*quad);
+        hits.in_half = std::move(*in_half);
+        return hits;
+    }
+    Result<vulkan::Program> program =
+        prepare_quad(device, row.instrumented, textures, plan.scale, plan.size, plan.size);
+    if (!program) return program.error();
+    hits.program = std::move(*program);
+    return hits;
+}
 
 Result<PreparedMap> prepare_map(const vulkan::Device& device, const Plan& plan,
                                 const std::vector<CompiledRow>& rows, const MapSet& set) {
     PreparedMap prepared{set.height_field(reference::FilterWeights::Exact), {}, {}};
     const Textures textures(set, plan.filtering);
     for (const CompiledRow& row : rows) {
-        for (auto [shaders, programs] : {std::pair{&row.instrumented, &prepared.instrumented},
-                                         std::pair{&row.shaded, &prepared.shaded}}) {
-            Result<vulkan::Program> program =
-                prepare_quad(device, *shaders, textures, plan.scale, plan.size, plan.size);
-            if (!program) return program.error();
-            programs->push_back(std::move(*program));
-        }
+        Result<PreparedHits> hits = prepare_hits(device, plan, row, textures);
+        if (!hits) return hits.error();
+        prepared.instrumented.push_back(std::move(*hits));
+        Result<vulkan::Program> program =
+            prepare_quad(device, row.shaded, textures, plan.scale, plan.size, plan.size);
+        if (!program) return program.error();
+        prepared.shaded.push_back(std::move(*program));
     }
     return prepared;
 }
@@ -112,11 +153,51 @@ Status time_rows(const Plan& plan, std::vector<vulkan::Program>& programs,
     return Done{};
 }
 
+// What a case draws and compares with.
+struct View {
+    const ExactPicture& exact;
+    const reference::HeightField& field;
+    Direction view, light;
+    float scale;
+    int size;
+
+    HitStatistics hits_of(const vulkan::Picture& picture) const {
+        return summarize(compare_hits(picture, exact, field, view, scale), size);
+    }
+};
+
+Status measure_program(vulkan::Program& program, const View& view, CaseResult& result) {
+    if (Status status = aim(program, view.view, view.light); !status) return status;
+    const Result<std::vector<vulkan::Picture>> pictures = program.draw();
+    if (!pictures) return pictures.error();
+    result.hits = view.hits_of((*pictures)[0]);
+    count_reads((*pictures)[1], result);
+    return Done{};
+}
+
+Status measure_bytecode(const PreparedHits& shader, const View& view, CaseResult& result) {
+    const Result<InterpretedPicture> wide =
+        shader.bytecode->draw(view.view, view.light, d3d9::Arithmetic::Fp32);
+    if (!wide) return wide.error();
+    result.hits = view.hits_of(wide->picture);
+    result.reads_mean = wide->reads_mean;
+    result.reads_max = wide->reads_max;
+    for (d3d9::Arithmetic arithmetic : narrow_arithmetics) {
+        const bool half = arithmetic == d3d9::Arithmetic::Fp16Partial;
+        const InterpretedQuad& quad = half ? *shader.in_half : *shader.bytecode;
+        const Result<InterpretedPicture> narrow = quad.draw(view.view, view.light, arithmetic);
+        if (!narrow) return narrow.error();
+        result.narrow_hits.push_back(view.hits_of(narrow->picture));
+    }
+    return Done{};
+}
+
 Result<std::vector<CaseResult>> measure_view(const Plan& plan, PreparedMap& prepared, int map,
                                              Direction view, Direction light) {
     const float scale = static_cast<float>(plan.scale);
     const ExactPicture exact =
         trace_exact(prepared.field, view, light, scale, plan.size, plan.size);
+    const View case_view{exact, prepared.field, view, light, scale, plan.size};
     std::vector<CaseResult> results(plan.rows.size());
     for (std::size_t row = 0; row < plan.rows.size(); ++row) {
         CaseResult& result = results[row];
@@ -124,13 +205,11 @@ Result<std::vector<CaseResult>> measure_view(const Plan& plan, PreparedMap& prep
         result.map = map;
         result.view = view;
         result.light = light;
-        for (std::vector<vulkan::Program>* programs : {&prepared.instrumented, &prepared.shaded})
-            if (Status status = aim((*programs)[row], view, light); !status) return status.error();
-        const Result<std::vector<vulkan::Picture>> pictures = prepared.instrumented[row].draw();
-        if (!pictures) return pictures.error();
-        result.hits =
-            summarize(compare_hits((*pictures)[0], exact, prepared.field, view, scale), plan.size);
-        count_reads((*pictures)[1], result);
+        PreparedHits& hits = prepared.instrumented[row];
+        Status measured = hits.bytecode ? measure_bytecode(hits, case_view, result)
+                                        : measure_program(*hits.program, case_view, result);
+        if (!measured) return measured.error();
+        if (Status status = aim(prepared.shaded[row], view, light); !status) return status.error();
         const Result<std::vector<vulkan::Picture>> shaded = prepared.shaded[row].draw();
         if (!shaded) return shaded.error();
         result.invalid_colours = count_invalid((*shaded)[0]);
@@ -154,6 +233,7 @@ Result<Measurement> measure(const dsl::Catalogue& catalogue, const Plan& plan,
         Result<CompiledRow> row = compile_row(catalogue, request);
         if (!row) return row.error();
         measurement.costs.push_back(row->cost);
+        measurement.slots.push_back(row->slots);
         measurement.settings.push_back(row->settings);
         rows.push_back(std::move(*row));
     }

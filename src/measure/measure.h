@@ -1,11 +1,17 @@
 // Speed against error: draws every variant on every map at every view and light, compares each
-// pixel's hit with the exact reference, and times the variants interleaved.
+// pixel's hit with the exact reference, and times the variants interleaved.  Direct3D 9 variants
+// are judged by what their bytecode does in the arithmetic of the hardware of their time, so their
+// hits are the interpreter's; their times are those of MojoShader's translation.
 #pragma once
 
+#include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "generator/target/d3d9/interpret.h"
+#include "generator/target/d3d9/resources.h"
 #include "src/measure/hits.h"
 #include "src/measure/map_set.h"
 #include "src/variant/variant.h"
@@ -25,11 +31,18 @@ struct Plan {
     bool validation = false;  // Vulkan validation layers; a message is an error
 };
 
+// What hardware of Direct3D 9's time computes in, beside fp32: R300's 24 bits, and 16 bits as
+// if every instruction said _pp.
+inline constexpr std::array narrow_arithmetics = {d3d9::Arithmetic::Fp24,
+                                                  d3d9::Arithmetic::Fp16Partial};
+
 // One variant on one map at one view and light.
 struct CaseResult {
     int row = 0, map = 0;  // indices into the plan
     Direction view, light;
-    HitStatistics hits;
+    HitStatistics hits;  // of a Direct3D 9 variant: in fp32
+    // Of a Direct3D 9 variant in each of narrow_arithmetics, else empty.
+    std::vector<HitStatistics> narrow_hits;
     double reads_mean =
         0;  // texture reads executed per pixel, counted on the run (search and shadow)
     int reads_max = 0;
@@ -40,8 +53,10 @@ struct CaseResult {
 };
 
 struct Measurement {
-    std::string device;                              // name and driver: whose times these are
-    std::vector<check::SpirvCost> costs;             // of each row's shaded pixel stage
+    std::string device;                   // name and driver: whose times these are
+    std::vector<check::SpirvCost> costs;  // of each row's shaded pixel stage
+    // Of a Direct3D 9 row its shaded pixel stage counts in slots, whose SPIR-V is MojoShader's.
+    std::vector<std::optional<d3d9::Resources>> slots;
     std::vector<std::vector<std::string>> settings;  // of each row
     std::vector<CaseResult> cases;                   // by map, view, light, row
 };

@@ -41,6 +41,23 @@ std::string of_times(const Record& record, double number) {
     return record.result.nanoseconds > 0 ? text_of(number) : "";
 }
 
+// Of Direct3D 9 rows, else empty.
+std::string of_slots(const Record& record, int d3d9::Resources::*which) {
+    const auto& slots = record.measurement.slots[static_cast<std::size_t>(record.result.row)];
+    return slots ? text_of((*slots).*which) : "";
+}
+
+// Errors in one of narrow_arithmetics, of Direct3D 9 rows.
+std::string missed_in(const Record& record, std::size_t arithmetic) {
+    if (arithmetic >= record.result.narrow_hits.size()) return "";
+    return text_of(record.result.narrow_hits[arithmetic].missed);
+}
+std::string p95_in(const Record& record, std::size_t arithmetic) {
+    if (arithmetic >= record.result.narrow_hits.size()) return "";
+    const measure::HitStatistics& hits = record.result.narrow_hits[arithmetic];
+    return hits.pixels > hits.invalid ? text_of(hits.p95) : "";
+}
+
 struct Column {
     const char* name;
     std::string (*cell)(const Record&);
@@ -99,6 +116,14 @@ constexpr Column columns[] = {
      [](const Record& r) { return of_hits(r, (r.result.hits.worst_x + 0.5) / r.plan.size); }},
     {"worst_v",
      [](const Record& r) { return of_hits(r, (r.result.hits.worst_y + 0.5) / r.plan.size); }},
+    {"d3d9_arithmetic", [](const Record& r) { return of_slots(r, &d3d9::Resources::arithmetic); }},
+    {"d3d9_texture", [](const Record& r) { return of_slots(r, &d3d9::Resources::texture); }},
+    {"d3d9_temps", [](const Record& r) { return of_slots(r, &d3d9::Resources::temps); }},
+    {"d3d9_level", [](const Record& r) { return of_slots(r, &d3d9::Resources::dependent_level); }},
+    {"hit_p95_fp24", [](const Record& r) { return p95_in(r, 0); }},
+    {"hit_p95_fp16", [](const Record& r) { return p95_in(r, 1); }},
+    {"missed_fp24", [](const Record& r) { return missed_in(r, 0); }},
+    {"missed_fp16", [](const Record& r) { return missed_in(r, 1); }},
     {"device", [](const Record& r) { return r.measurement.device; }},
     {"command", [](const Record& r) { return run_command(r.plan, r.result, r.map_arguments); }},
 };

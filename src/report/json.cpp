@@ -38,8 +38,18 @@ Json maps_of(const Plan& plan) {
     return maps;
 }
 
+// Of a Direct3D 9 row, else null.
+Json slots_of(const std::optional<d3d9::Resources>& slots) {
+    if (!slots) return {};
+    return {{"arithmetic", slots->arithmetic},
+            {"texture", slots->texture},
+            {"temps", slots->temps},
+            {"constants", slots->constants},
+            {"dependent_level", slots->dependent_level}};
+}
+
 Json row_of(const VariantRequest& request, const check::SpirvCost& cost,
-            const std::vector<std::string>& settings) {
+            const std::optional<d3d9::Resources>& slots, const std::vector<std::string>& settings) {
     Json knobs = Json::object(), loops = Json::object();
     for (const auto& [knob, value] : request.knobs) knobs[knob] = value;
     for (const auto& [loop, form] : request.loop_forms) loops[loop] = word_of(form);
@@ -56,11 +66,11 @@ Json row_of(const VariantRequest& request, const check::SpirvCost& cost,
               {"memory", cost.memory},
               {"total", cost.total},
               {"shortest_path", cost.shortest_path},
-              {"longest_path", cost.longest_path}}}};
+              {"longest_path", cost.longest_path}}},
+            {"d3d9", slots_of(slots)}};
 }
 
-Json hits_of(const CaseResult& result, int size) {
-    const measure::HitStatistics& hits = result.hits;
+Json hits_of(const measure::HitStatistics& hits, int size) {
     Json json = {{"pixels", hits.pixels},
                  {"missed", hits.missed},
                  {"invalid", hits.invalid},
@@ -83,6 +93,13 @@ Json hits_of(const CaseResult& result, int size) {
     return json;
 }
 
+// Of a Direct3D 9 row, else null.
+Json narrow_hits_of(const CaseResult& result, int size) {
+    if (result.narrow_hits.size() != measure::narrow_arithmetics.size()) return {};
+    return {{"fp24", hits_of(result.narrow_hits[0], size)},
+            {"fp16", hits_of(result.narrow_hits[1], size)}};
+}
+
 Json case_of(const Plan& plan, const CaseResult& result, const MapArguments& map_arguments) {
     const bool timed = result.nanoseconds > 0;
     const std::string command = run_command(plan, result, map_arguments);
@@ -94,7 +111,8 @@ Json case_of(const Plan& plan, const CaseResult& result, const MapArguments& map
             {"time",
              {{"nanoseconds_per_pixel", timed ? Json(result.nanoseconds) : Json()},
               {"ratio", timed ? Json(result.ratio) : Json()}}},
-            {"hits", hits_of(result, plan.size)},
+            {"hits", hits_of(result.hits, plan.size)},
+            {"narrow_hits", narrow_hits_of(result, plan.size)},
             {"invalid_colours", result.invalid_colours},
             {"command", command.empty() ? Json() : Json(command)}};
 }
@@ -105,7 +123,8 @@ std::string to_json(const Plan& plan, const Measurement& measurement,
                     const MapArguments& map_arguments) {
     Json rows = Json::array(), cases = Json::array();
     for (std::size_t row = 0; row < plan.rows.size(); ++row)
-        rows.push_back(row_of(plan.rows[row], measurement.costs[row], measurement.settings[row]));
+        rows.push_back(row_of(plan.rows[row], measurement.costs[row], measurement.slots[row],
+                              measurement.settings[row]));
     for (const CaseResult& result : measurement.cases)
         cases.push_back(case_of(plan, result, map_arguments));
     const Json json = {
@@ -113,6 +132,9 @@ std::string to_json(const Plan& plan, const Measurement& measurement,
         {"version", schema_version},
         {"made_by",
          {{"spirv", "instructions of the shaded pixel stage after spirv-opt"},
+          {"d3d9",
+           "slots and registers of a ps_* row's shaded pixel stage by Direct3D's charge; its hits "
+           "in fp32, narrow_hits in R300's s16e7 and with _pp everywhere"},
           {"reads", "counted on the run: search and shadow, per pixel"},
           {"time",
            "median of interleaved rounds on the device; ratio to the first row of the same map, "

@@ -95,16 +95,23 @@ std::vector<std::string> head() {
 
 constexpr std::size_t technique_column = 1, knob_column = 2;
 
+// What the pixel stage costs by the measure of its target.
+std::string cost_text(const Measurement& measurement, int row) {
+    const auto& slots = measurement.slots[static_cast<std::size_t>(row)];
+    if (slots) return fmt::format("{}+{}", slots->arithmetic, slots->texture);
+    const check::SpirvCost& cost = measurement.costs[static_cast<std::size_t>(row)];
+    return fmt::format("{}/{}/{}", cost.alu, cost.texture, cost.total);
+}
+
 std::vector<std::string> cells_of(const Plan& plan, const Measurement& measurement,
                                   const CaseResult& result) {
     const VariantRequest& request = request_of(plan, result);
-    const check::SpirvCost& cost = measurement.costs[static_cast<std::size_t>(result.row)];
     const measure::HitStatistics& hits = result.hits;
     std::vector<std::string> cells{fmt::format("{}", result.row + 1),
                                    technique_of(request),
                                    settings_of(request),
                                    request.target,
-                                   fmt::format("{}/{}/{}", cost.alu, cost.texture, cost.total),
+                                   cost_text(measurement, result.row),
                                    number(result.reads_mean, 2)};
     const bool timed = result.nanoseconds > 0;
     cells.push_back(timed ? number(result.ratio, 2) : "-");
@@ -173,6 +180,51 @@ std::string blocks(const Plan& plan, const Measurement& measurement) {
         text += block_title(plan, cases[first]) + print(grid) + "\n";
         first = next;
     }
+    return text;
+}
+
+bool has_direct3d9(const Measurement& measurement) {
+    return std::any_of(measurement.slots.begin(), measurement.slots.end(),
+                       [](const auto& slots) { return slots.has_value(); });
+}
+
+// Of the Direct3D 9 variants of a block: what they use of their profiles, and the error in each
+// arithmetic.
+std::string direct3d9_blocks(const Plan& plan, const Measurement& measurement) {
+    const auto [technique, knobs] = label_widths(plan, measurement);
+    std::string text;
+    const CaseResult* before = nullptr;
+    Grid grid;
+    const auto flush = [&] {
+        if (before != nullptr)
+            text += "Direct3D 9: " + block_title(plan, *before) + print(grid) + "\n";
+    };
+    for (const CaseResult& result : measurement.cases) {
+        const auto& slots = measurement.slots[static_cast<std::size_t>(result.row)];
+        if (!slots) continue;
+        if (before == nullptr || !same_block(*before, result)) {
+            flush();
+            grid = {{{"#", "technique", "knobs", "target", "arith", "tex", "temps", "level",
+                      "reads", "p95 fp32", "fp24", "fp16", "miss% fp32", "fp24", "fp16"}},
+                    4};
+            before = &result;
+        }
+        const VariantRequest& request = request_of(plan, result);
+        std::vector<std::string> cells = {fmt::format("{}", result.row + 1),
+                                          shortened(technique_of(request), technique),
+                                          shortened(settings_of(request), knobs), request.target};
+        for (int count : {slots->arithmetic, slots->texture, slots->temps, slots->dependent_level})
+            cells.push_back(fmt::format("{}", count));
+        cells.push_back(number(result.reads_mean, 2));
+        std::vector<const measure::HitStatistics*> all = {&result.hits};
+        for (const measure::HitStatistics& hits : result.narrow_hits) all.push_back(&hits);
+        for (const measure::HitStatistics* hits : all)
+            cells.push_back(hits->pixels > hits->invalid ? texels(hits->p95) : "-");
+        for (const measure::HitStatistics* hits : all)
+            cells.push_back(share(hits->missed, hits->pixels));
+        grid.lines.push_back(std::move(cells));
+    }
+    flush();
     return text;
 }
 
@@ -260,6 +312,14 @@ std::string legend(const Plan& plan, const Measurement& measurement) {
         "not of any GPU\n"
         "reads        texture reads executed per pixel by search and shadow, mean, counted on the "
         "run\n";
+    if (has_direct3d9(measurement))
+        text +=
+            "             of ps_*: arithmetic + texture slots by Direct3D's charge, temporary "
+            "registers, level of dependent reads;\n"
+            "             hits and reads are the bytecode's, interpreted: in fp32, R300's fp24 "
+            "(s16e7), and fp16 as if\n"
+            "             every instruction said _pp; times are those of MojoShader's "
+            "translation\n";
     if (plan.rounds > 0)
         text += fmt::format(
             "time, ns/px  median of {} interleaved rounds, time relative to row 1 of its block; "
@@ -284,8 +344,9 @@ std::string legend(const Plan& plan, const Measurement& measurement) {
 }  // namespace
 
 std::string table(const Plan& plan, const Measurement& measurement) {
-    return blocks(plan, measurement) + overviews(plan, measurement) +
-           shortened_variants(plan, measurement) + legend(plan, measurement);
+    return blocks(plan, measurement) + direct3d9_blocks(plan, measurement) +
+           overviews(plan, measurement) + shortened_variants(plan, measurement) +
+           legend(plan, measurement);
 }
 
 }  // namespace intaglio::report

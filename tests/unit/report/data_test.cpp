@@ -188,5 +188,28 @@ TEST(Data, TheSameMeasurementGivesTheSameBytes) {
     EXPECT_EQ(to_csv(a.plan, a.measurement, arguments), to_csv(b.plan, b.measurement, arguments));
 }
 
+TEST(Data, Direct3d9RowsHaveSlotsAndThreeArithmetics) {
+    const Sample made = direct3d9_sample();
+    const Json json = Json::parse(to_json(made.plan, made.measurement, arguments));
+    const auto records = records_of(to_csv(made.plan, made.measurement, arguments));
+    EXPECT_EQ(json["rows"][1]["d3d9"]["arithmetic"], 41);
+    EXPECT_TRUE(json["rows"][0]["d3d9"].is_null());
+    for (std::size_t i = 0; i < made.measurement.cases.size(); ++i) {
+        const measure::CaseResult& result = made.measurement.cases[i];
+        const Json& hits = json["cases"][i]["narrow_hits"];
+        EXPECT_EQ(cell(records, i + 1, "d3d9_texture"), result.row == 1 ? "9" : "");
+        if (result.row != 1) {
+            EXPECT_TRUE(hits.is_null());
+            EXPECT_EQ(cell(records, i + 1, "hit_p95_fp24"), "");
+            continue;
+        }
+        EXPECT_EQ(hits["fp24"]["p95"], result.narrow_hits[0].p95);
+        EXPECT_EQ(hits["fp16"]["missed"], 128);
+        EXPECT_EQ(cell(records, i + 1, "hit_p95_fp24"),
+                  fmt::format("{}", result.narrow_hits[0].p95));
+        EXPECT_EQ(cell(records, i + 1, "missed_fp16"), "128");
+    }
+}
+
 }  // namespace
 }  // namespace intaglio::report

@@ -166,5 +166,22 @@ TEST(Table, TheLegendSaysWhoMadeTheNumbers) {
     for (const std::string& line : lines_of(text)) EXPECT_LE(line.size(), table_width) << line;
 }
 
+// Slots in place of SPIR-V, and a block of their own with the error in each arithmetic.
+TEST(Table, Direct3d9RowsHaveSlotsAndThreeArithmetics) {
+    const Sample made = direct3d9_sample();
+    const std::string text = table(made.plan, made.measurement);
+    EXPECT_THAT(words_of(block(text, "bricks (32 x 8), seen from straight above")[2]),
+                ::testing::Contains("41+9"));
+    const auto lines = block(text, "Direct3D 9: bricks (32 x 8), seen from straight above");
+    ASSERT_EQ(lines.size(), 2u);
+    const std::vector<std::string> words = words_of(lines[1]);
+    const std::vector<std::string> tail(words.end() - 12, words.end());
+    EXPECT_THAT(tail, ::testing::ElementsAre("ps_2_0", "41", "9", "6", "2", "5.25", "1.100",
+                                             "2.200", "330.0", "0.39", "0.39", "50.00"));
+    for (const std::string& line : lines_of(text)) EXPECT_LE(line.size(), table_width) << line;
+    const Sample without = sample();
+    EXPECT_THAT(table(without.plan, without.measurement), ::testing::Not(HasSubstr("Direct3D 9")));
+}
+
 }  // namespace
 }  // namespace intaglio::report
