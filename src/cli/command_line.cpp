@@ -160,6 +160,16 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
                          "map (the whole map from infinity), quad, sphere or torus")
             ->capture_default_str();
         command
+            ->add_option("--geometry", options->geometry,
+                         "polygon (with the surface's search), displaced (the relief as triangles) "
+                         "or shells (as layers)")
+            ->capture_default_str();
+        command
+            ->add_option("--subdivisions", options->subdivisions,
+                         "Squares along a texel's side, of displaced geometry")
+            ->capture_default_str();
+        command->add_option("--layers", options->layers, "How many shells")->capture_default_str();
+        command
             ->add_option("--elevation", options->elevation,
                          "Of the eye, degrees above the surface or horizon")
             ->capture_default_str();

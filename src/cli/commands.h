@@ -84,6 +84,10 @@ struct RunOptions {
     MapOptions map;
     std::string mesh =
         "quad";  // map: the whole map seen from infinity; quad, sphere, torus: in perspective
+    // displaced: the relief as triangles, without a search; shells: as layers.
+    std::string geometry = "polygon";
+    int subdivisions = 2;  // of a texel, displaced
+    int layers = 16;       // shells
     double elevation = 40, azimuth = 250, light_elevation = 45, light_azimuth = 20, distance = 0,
            repeat = 1;
     std::string size = "512x512";

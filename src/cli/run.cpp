@@ -7,6 +7,8 @@
 
 #include "src/cli/commands.h"
 #include "src/maps/png.h"
+#include "src/measure/displaced.h"
+#include "src/measure/shells.h"
 #include "src/measure/split.h"
 #include "src/report/picture.h"
 
@@ -19,6 +21,16 @@ Status check_options(const RunOptions& options) {
         return input_error(
             "option-value",
             fmt::format("--mesh is map, quad, sphere or torus, not '{}'", options.mesh));
+    if (options.geometry != "polygon" && options.geometry != "displaced" &&
+        options.geometry != "shells")
+        return input_error(
+            "option-value",
+            fmt::format("--geometry is polygon, displaced or shells, not '{}'", options.geometry));
+    if (options.geometry != "polygon" &&
+        (!options.error_map.empty() || !options.variant.split.empty()))
+        return input_error("option-value",
+                           "--error-map and --split are of reliefs on polygons: leave out "
+                           "--geometry");
     if (!options.error_map.empty() && options.mesh != "map")
         return input_error("option-value",
                            "--error-map needs --mesh map: the reference knows flat reliefs");
@@ -33,21 +45,84 @@ Status check_options(const RunOptions& options) {
     return Done{};
 }
 
-Result<measure::MeshView> mesh_view(const RunOptions& options, Size size) {
+// What the relief lies on: how often the map is repeated over it, and the world units that a
+// texture unit spans there.
+struct Ground {
+    float repeat_u, repeat_v;
+    double span;
+};
+
+constexpr float tube = 0.45f;  // radius of the torus's
+
+Ground ground_of(const RunOptions& options) {
+    const float repeat = static_cast<float>(options.repeat);
+    if (options.mesh == "map") return {1, 1, 1};
+    if (options.mesh == "quad") return {repeat, repeat, 1 / options.repeat};
+    if (options.mesh == "sphere")
+        return {4 * repeat, 2 * repeat, std::numbers::pi / (2 * options.repeat)};
+    return {6 * repeat, 2 * repeat, std::numbers::pi * tube / options.repeat};
+}
+
+// How far a parallel view of the map sees beyond its edges.
+double margin_of(const RunOptions& options) {
+    return measure::reach_of({options.elevation, options.azimuth}, options.map.scale) + 0.01;
+}
+
+vulkan::Mesh smooth_mesh(const RunOptions& options) {
+    const Ground ground = ground_of(options);
+    if (options.mesh == "map") {
+        const std::vector<double> edges = {-margin_of(options), 1 + margin_of(options)};
+        return vulkan::quad({edges, edges});
+    }
+    if (options.mesh == "quad")
+        return vulkan::quad({{0, 1}, {0, 1}}, ground.repeat_u, ground.repeat_v);
+    if (options.mesh == "sphere") return vulkan::sphere(96, ground.repeat_u, ground.repeat_v);
+    return vulkan::torus(128, 1.0f, tube, ground.repeat_u, ground.repeat_v);
+}
+
+Result<vulkan::Mesh> displaced_mesh(const RunOptions& options,
+                                    const reference::HeightField& field) {
+    if (options.mesh == "map")
+        return measure::displaced_map(field, options.map.scale, options.subdivisions,
+                                      margin_of(options));
+    const Ground ground = ground_of(options);
+    const double repeat_u = static_cast<double>(ground.repeat_u);
+    const double repeat_v = static_cast<double>(ground.repeat_v);
+    const Result<std::vector<double>> u =
+        measure::texel_lines(0, 1, field.width, repeat_u, options.subdivisions);
+    if (!u) return u.error();
+    const Result<std::vector<double>> v =
+        measure::texel_lines(0, 1, field.height, repeat_v, options.subdivisions);
+    if (!v) return v.error();
+    if (Status status = measure::check_mesh_size(u->size() * v->size()); !status)
+        return status.error();
+    const vulkan::GridLines lines = {*u, *v};
+    const auto placed = [&] {
+        if (options.mesh == "quad") return vulkan::quad(lines, ground.repeat_u, ground.repeat_v);
+        if (options.mesh == "sphere")
+            return vulkan::sphere(lines, ground.repeat_u, ground.repeat_v);
+        return vulkan::torus(lines, 1.0f, tube, ground.repeat_u, ground.repeat_v);
+    };
+    return measure::displace(placed(), field, options.map.scale * ground.span);
+}
+
+Result<vulkan::Mesh> mesh_of(const RunOptions& options, const measure::MapSet& set) {
+    if (options.geometry == "displaced")
+        return displaced_mesh(options, set.height_field(reference::FilterWeights::Exact));
+    vulkan::Mesh mesh = smooth_mesh(options);
+    if (options.geometry == "polygon") return mesh;
+    return measure::shells_of(mesh, options.layers, options.map.scale * ground_of(options).span);
+}
+
+Result<measure::MeshView> mesh_view(const RunOptions& options, Size size, vulkan::Mesh mesh) {
     measure::MeshView view;
+    view.mesh = std::move(mesh);
     vulkan::Point target = {0, 0, 0};
     double distance = 3.4;
-    const float repeat = static_cast<float>(options.repeat);
     if (options.mesh == "quad") {
-        view.mesh = vulkan::quad();
-        for (vulkan::Vertex& vertex : view.mesh.vertices)
-            for (float& coordinate : vertex.uv) coordinate *= repeat;
         target = {0.5f, 0.5f, 0};
         distance = 1.7;
-    } else if (options.mesh == "sphere") {
-        view.mesh = vulkan::sphere(96, 4 * repeat, 2 * repeat);
-    } else {
-        view.mesh = vulkan::torus(128, 1.0f, 0.45f, 6 * repeat, 2 * repeat);
+    } else if (options.mesh == "torus") {
         distance = 4.2;
     }
     if (options.distance > 0) distance = options.distance;
@@ -108,6 +183,36 @@ measure::PreparePass prepare_on_mesh(const vulkan::Device& device,
     };
 }
 
+// Geometry below the whole map, in one pass; what it refers to must outlive it.
+measure::PreparePass prepare_below_map(const vulkan::Device& device,
+                                       const measure::Textures& textures, const measure::Shot& shot,
+                                       const vulkan::Mesh& mesh) {
+    return [&](const check::Program& shaders, const measure::PassLink& link) {
+        return measure::prepare_parallel(device, shaders, textures, shot.scale, shot.width,
+                                         shot.height, mesh, shot.view, shot.light, link);
+    };
+}
+
+// The same draws, told that they draw shells.
+measure::PreparePass with_shells(measure::PreparePass prepare) {
+    return [prepare](const check::Program& shaders,
+                     const measure::PassLink&) -> Result<vulkan::Program> {
+        Result<vulkan::Program> program = prepare(shaders, measure::shells_link());
+        if (!program) return program;
+        if (Status status = measure::set_shells(*program); !status) return status.error();
+        return program;
+    };
+}
+
+// The surface as the geometry needs it.
+VariantRequest request_on(const RunOptions& options, VariantRequest request) {
+    if (options.geometry == "displaced")
+        request.surface = dsl::with_part(request.surface, "search", "displaced");
+    if (options.geometry == "shells")
+        return measure::shells_request(std::move(request), options.layers);
+    return request;
+}
+
 // What the format of the picture between the passes changed.
 Status print_format_error(const dsl::Catalogue& catalogue, const measure::SplitDraw& draw,
                           const measure::OffsetCode& code, const std::string& format) {
@@ -125,10 +230,13 @@ Status print_format_error(const dsl::Catalogue& catalogue, const measure::SplitD
 
 }  // namespace
 
-Status run(const dsl::Catalogue& catalogue, const RunOptions& options) {
+Status run(const dsl::Catalogue& techniques, const RunOptions& options) {
     if (Status status = check_options(options); !status) return status;
-    const Result<VariantRequest> request = request_of(options.variant);
+    const bool polygon = options.geometry == "polygon";
+    const dsl::Catalogue catalogue = polygon ? techniques : measure::with_geometry(techniques);
+    Result<VariantRequest> request = request_of(options.variant);
     if (!request) return request.error();
+    request = request_on(options, std::move(*request));
     const Result<Size> size = parse_size(options.size);
     if (!size) return size.error();
     const Result<measure::Filtering> filtering = filtering_of(options.map.filtering);
@@ -147,7 +255,14 @@ Status run(const dsl::Catalogue& catalogue, const RunOptions& options) {
     measure::Shot shot = shot_of(options, *size);
     shot.format = *format;
     const bool flat = options.mesh == "map";
-    const Result<measure::MeshView> view = flat ? measure::MeshView{} : mesh_view(options, *size);
+    if (flat && !polygon && !(options.elevation > 0))
+        return input_error("option-value",
+                           "--geometry below a map is seen from above: "
+                           "--elevation above 0");
+    Result<vulkan::Mesh> mesh = flat && polygon ? vulkan::Mesh{} : mesh_of(options, *set);
+    if (!mesh) return mesh.error();
+    const Result<measure::MeshView> view = flat ? measure::MeshView{std::move(*mesh), {}, {}}
+                                                : mesh_view(options, *size, std::move(*mesh));
     if (!view) return view.error();
     // 76 degrees from straight down, per axis; flatter rays are clamped by the unorm formats.
     constexpr double mesh_slope = 4;
@@ -155,9 +270,11 @@ Status run(const dsl::Catalogue& catalogue, const RunOptions& options) {
                  : flat                   ? measure::shot_range(shot)
                                           : mesh_slope * std::max(options.map.scale, 1e-3);
     const measure::OffsetCode code = measure::offset_code(shot.format, shot.range);
-    const measure::PreparePass prepare =
-        flat ? measure::prepare_shot(*device, textures, shot)
-             : prepare_on_mesh(*device, textures, options, *view, *size);
+    measure::PreparePass prepare = !flat ? prepare_on_mesh(*device, textures, options, *view, *size)
+                                   : polygon
+                                       ? measure::prepare_shot(*device, textures, shot)
+                                       : prepare_below_map(*device, textures, shot, view->mesh);
+    if (options.geometry == "shells") prepare = with_shells(prepare);
     const Result<vulkan::Picture> picture = measure::draw_passes(*passes, code, prepare);
     if (!picture) return picture.error();
     if (passes->size() > 1) {

@@ -97,8 +97,22 @@ TEST_P(EveryMesh, FrameFollowsTheTextureCoordinates) {
     EXPECT_GT(checked, 0);
 }
 
+// Uneven, and close enough for facets of a few degrees.
+GridLines uneven_lines(double first, double last) {
+    GridLines lines;
+    for (int i = 0; i <= 90; ++i) {
+        const double share = i / 90.0;
+        lines.u.push_back(share * (0.6 + 0.4 * share));
+        lines.v.push_back(first + (last - first) * share);
+    }
+    return lines;
+}
+
 INSTANTIATE_TEST_SUITE_P(Mesh, EveryMesh,
                          testing::Values(Case{"quad", quad()}, Case{"sphere", sphere(64), true},
+                                         Case{"quad_grid", quad(uneven_lines(-0.5, 2), 3, 2)},
+                                         Case{"torus_grid", torus(uneven_lines(0, 1))},
+                                         Case{"sphere_belt", sphere(uneven_lines(0.1, 0.9)), true},
                                          Case{"sphere_repeated", sphere(64, 4, 2), true},
                                          Case{"torus", torus(64)},
                                          Case{"thin_torus", torus(64, 2, 0.1f, 16, 3)}),
@@ -114,6 +128,20 @@ TEST(Mesh, TextureCoordinatesReachTheRepeats) {
     EXPECT_EQ(largest(sphere(8, 4, 2), 1), 2);
     EXPECT_EQ(largest(torus(8, 1, 0.5f, 6, 3), 0), 6);
     EXPECT_EQ(largest(torus(8, 1, 0.5f, 6, 3), 1), 3);
+}
+
+// Over even lines the same, but for the triangles of a pole, which have no area until they move.
+TEST(Mesh, GridsAreTheMeshesOfTheirLines) {
+    const GridLines lines = {{0, 0.25, 0.5, 0.75, 1}, {0, 0.5, 1}};
+    const Mesh grid = sphere(lines, 4, 2), smooth = sphere(4, 4, 2);
+    EXPECT_EQ(grid.indices.size(), smooth.indices.size() + 2 * 4 * 3);
+    ASSERT_EQ(grid.vertices.size(), smooth.vertices.size());
+    for (std::size_t i = 0; i < grid.vertices.size(); ++i) {
+        EXPECT_EQ(grid.vertices[i].position, smooth.vertices[i].position);
+        EXPECT_EQ(grid.vertices[i].uv, smooth.vertices[i].uv);
+    }
+    EXPECT_EQ(quad({{0, 1}, {0, 1}}).vertices[3].uv, quad().vertices[3].uv);
+    EXPECT_EQ(quad({{0, 1}, {0, 1}}, 3, 2).vertices[3].uv, (std::array<float, 2>{3, 2}));
 }
 
 TEST(Mesh, VerticesLieOnTheSurface) {
