@@ -150,6 +150,21 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
         });
     }
     {
+        auto options = std::make_shared<TableOptions>();
+        CLI::App* command = app.add_subcommand(
+            "table", "What each Direct3D 9 profile makes of every technique and knob, in Markdown");
+        command->add_option("--only", options->only,
+                            "Techniques whose title contains this: search=relief, shadow, preset");
+        command->add_option("-j,--threads", options->threads, "Variants at once")
+            ->capture_default_str()
+            ->check(CLI::Range(1, 256));
+        command->add_option("-o,--output", options->output, "File; - is stdout")
+            ->capture_default_str();
+        command->callback([&chosen, &catalogue, options] {
+            chosen = [&, options] { return table_of_settings(catalogue, *options); };
+        });
+    }
+    {
         auto options = std::make_shared<RunOptions>();
         CLI::App* command =
             app.add_subcommand("run", "One picture on a Vulkan device, without a window");

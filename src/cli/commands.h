@@ -61,6 +61,14 @@ struct ExplainOptions {
 // Says who spends the slots; of a refused variant too, which is no error here.
 Status explain(const dsl::Catalogue& catalogue, const ExplainOptions& options);
 
+struct TableOptions {
+    std::string only;  // part of a technique's title; empty: all
+    int threads = 1;
+    std::string output = "-";
+};
+// What each Direct3D 9 profile makes of every technique and knob, in Markdown.
+Status table_of_settings(const dsl::Catalogue& catalogue, const TableOptions& options);
+
 // Which maps a surface wears.
 struct MapOptions {
     std::string height, normal, colour;  // files; empty: made from the heights
