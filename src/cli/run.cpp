@@ -213,6 +213,29 @@ VariantRequest request_on(const RunOptions& options, VariantRequest request) {
     return request;
 }
 
+// Fragments that shells cost at the pixels where they are.
+Status print_overdraw(const dsl::Catalogue& catalogue, VariantRequest surface, int layers,
+                      const measure::PreparePass& prepare) {
+    const Result<std::vector<check::Program>> shaders =
+        measure::link_passes(catalogue, measure::shells_request(std::move(surface), layers, true));
+    if (!shaders) return shaders.error();
+    Result<vulkan::Program> program = prepare(shaders->front(), {});
+    if (!program) return program.error();
+    const Result<std::vector<int>> fragments = measure::count_overdraw(*program, layers);
+    if (!fragments) return fragments.error();
+    std::int64_t sum = 0, covered = 0, most = 0;
+    for (const int count : *fragments) {
+        sum += count;
+        covered += count > 0 ? 1 : 0;
+        most = std::max<std::int64_t>(most, count);
+    }
+    fmt::print(stderr, "{} shells: {:.3g} fragments a pixel, at most {}, over {} of {} pixels\n",
+               layers,
+               static_cast<double>(sum) / static_cast<double>(std::max<std::int64_t>(covered, 1)),
+               most, covered, fragments->size());
+    return Done{};
+}
+
 // What the format of the picture between the passes changed.
 Status print_format_error(const dsl::Catalogue& catalogue, const measure::SplitDraw& draw,
                           const measure::OffsetCode& code, const std::string& format) {
@@ -277,6 +300,11 @@ Status run(const dsl::Catalogue& techniques, const RunOptions& options) {
     if (options.geometry == "shells") prepare = with_shells(prepare);
     const Result<vulkan::Picture> picture = measure::draw_passes(*passes, code, prepare);
     if (!picture) return picture.error();
+    if (options.geometry == "shells")
+        if (Status status =
+                print_overdraw(catalogue, *request_of(options.variant), options.layers, prepare);
+            !status)
+            return status;
     if (passes->size() > 1) {
         const measure::SplitDraw draw{
             *request,
