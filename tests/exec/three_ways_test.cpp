@@ -260,5 +260,39 @@ TEST(Direct3d9, OneWrongSwizzleIsSeenByBothReadersOfTheBytes) {
     EXPECT_GE(seen, 3) << "of " << tried;
 }
 
+// Mean distance of coordinates.
+double mean_apart(const vulkan::Picture& a, const vulkan::Picture& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        sum += std::hypot(a.pixels[i][0] - b.pixels[i][0], a.pixels[i][1] - b.pixels[i][1]);
+    return sum / static_cast<double>(a.pixels.size());
+}
+
+// R300 keeps 16 bits after the point, `_pp` 10: numbers near 1 are off by 2^-17 and 2^-11, and some
+// ten roundings of smaller ones follow each other.
+TEST(Direct3d9, NarrowArithmeticIsOffByItsBits) {
+    const Variant variant = must(
+        make_variant(templates::all_techniques(),
+                     request("parallax_occlusion,output=displaced", "ps_2_0", {{"taps", "6"}})));
+    const measure::InterpretedQuad quad =
+        must(measure::InterpretedQuad::prepare(variant, textures(), test_scale, size, size));
+    const measure::InterpretedQuad in_half = must(quad.with_partial_precision());
+    const vulkan::Picture wide = must(quad.draw(view, light, d3d9::Arithmetic::Fp32)).picture;
+    // Nothing that we emit says _pp by itself.
+    EXPECT_TRUE(
+        same_bits(wide, must(quad.draw(view, light, d3d9::Arithmetic::Fp16Partial)).picture));
+    const measure::InterpretedPicture drawn = must(quad.draw(view, light, d3d9::Arithmetic::Fp24));
+    EXPECT_EQ(drawn.reads_max, 7) << "six taps and the one that the hit is read again by";
+    const double fp24 = mean_apart(wide, drawn.picture);
+    const double fp16 =
+        mean_apart(wide, must(in_half.draw(view, light, d3d9::Arithmetic::Fp16Partial)).picture);
+    EXPECT_GT(fp24, 1.0 / (1 << 20));
+    EXPECT_LT(fp24, 1.0 / (1 << 14));
+    EXPECT_GT(fp16, 8 * fp24);
+    EXPECT_LT(fp16, 1.0 / (1 << 8));
+    RecordProperty("fp24", fmt::format("{:.2e}", fp24));
+    RecordProperty("fp16", fmt::format("{:.2e}", fp16));
+}
+
 }  // namespace
 }  // namespace intaglio::exec
