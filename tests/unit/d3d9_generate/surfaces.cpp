@@ -74,6 +74,28 @@ std::vector<Case> all_cases() {
     return cases;
 }
 
+std::vector<Case> output_cases() {
+    return {
+        {"search=none,output=depth", {}},
+        {"search=none,output=depth", {{"page_depth", "1"}}},
+        {"search=none,output=depth", {{"depth_range", "1"}, {"clip_tile", "1"}}},
+        {"parallax,output=depth", {{"page_depth", "1"}, {"clip_tile", "1"}}},
+        {"bump", {{"clip_tile", "1"}}},
+        {"bump,output=displaced", {{"clip_tile", "1"}}},
+        {"parallax_occlusion", {{"taps", "2"}, {"clip_tile", "1"}}},
+        {"parallax_occlusion,output=displaced", {{"taps", "6"}, {"clip_tile", "1"}}},
+        {"parallax_occlusion,output=depth", {{"taps", "3"}, {"clip_tile", "1"}}},
+        {"steep_parallax,output=displaced",
+         {{"min_steps", "5"}, {"max_steps", "5"}, {"clip_tile", "1"}}},
+        {"steep_parallax,output=depth",
+         {{"min_steps", "2"}, {"max_steps", "4"}, {"depth_range", "1"}}},
+        {"search=none,shadow=march,output=depth",
+         {{"shadow_min_steps", "3"}, {"shadow_max_steps", "3"}, {"clip_tile", "1"}}},
+        {"search=relief,output=displaced",
+         {{"linear_steps", "3"}, {"binary_steps", "2"}, {"clip_tile", "1"}}},
+    };
+}
+
 std::vector<Profile> pixel_profiles() {
     return {Profile::ps_2_0, Profile::ps_2_a, Profile::ps_2_b, Profile::ps_3_0};
 }

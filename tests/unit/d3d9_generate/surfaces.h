@@ -17,6 +17,8 @@ struct Case {
 
 // Every search, shadow and output, small and large.
 std::vector<Case> all_cases();
+// Those that write the depth or drop pixels.
+std::vector<Case> output_cases();
 std::vector<Profile> pixel_profiles();
 
 // The program as a target of this profile's name records it.

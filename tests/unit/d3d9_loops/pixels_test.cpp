@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "generator/ir/builder.h"
+#include "generator/ir/parse.h"
 #include "generator/target/d3d9/assembly.h"
 #include "generator/target/d3d9/bytecode.h"
 #include "generator/target/d3d9/interpret.h"
@@ -116,6 +118,96 @@ class LoopPixels : public vulkan::OnDevice {
         return picture;
     }
 };
+
+// Two quads over each other, the second with u the other way round: what is dropped shows what is
+// behind, and of two that stay the nearer by oDepth is seen.
+class OutputPixels : public LoopPixels, public ::testing::WithParamInterface<Profile> {};
+INSTANTIATE_TEST_SUITE_P(Profiles, OutputPixels, ::testing::ValuesIn(pixel_profiles()),
+                         [](const auto& test) { return std::string(name_of(test.param)); });
+
+ir::Program depth_and_clip() {
+    ir::Program program;
+    program.name = "depth_and_clip";
+    auto module = ir::parse(R"(pixel "depth_and_clip"
+input uv float2 interpolant
+output colour float4 target
+output depth float1 depth
+output inside float1 clip
+{
+%0 float2 = input uv
+%1 float1 = swizzle %0.x
+%2 float1 = swizzle %0.y
+%3 float1 = mul %1, %1
+%4 float1 = const 0.25
+%5 float1 = mul %3, %4
+%6 float1 = sub %3, %5
+%7 float1 = add %1, %2
+%8 float1 = const 0.9
+%9 float1 = sub %7, %8
+%10 float4 = compose %0, %3, %7
+return (%10, %6, %9)
+}
+)",
+                            "depth_and_clip");
+    EXPECT_TRUE(module) << (module ? "" : to_string(module.error()));
+    if (module) program.pixel = std::move(*module);
+    program.vertex.stage = ir::Stage::Vertex;
+    program.vertex.outputs.push_back({"uv", ir::float2, ir::Semantic::Interpolant});
+    ir::Builder vertex(program.vertex);
+    const std::array corner = {vertex.swizzle(vertex.constant(0.5f), "xx")};
+    vertex.finish(corner);
+    return program;
+}
+
+TEST_P(OutputPixels, AreDroppedAndTestedByDepth) {
+    const auto shader = generate_pixel(depth_and_clip(), GetParam());
+    ASSERT_TRUE(shader) << shader.error().message;
+    check::Source vertex;
+    vertex.language = check::Language::Glsl330;
+    vertex.stage = check::Stage::Vertex;
+    vertex.text = vertex_text;
+    const auto program = check::link_d3d9(vertex, encode(*shader));
+    ASSERT_TRUE(program) << to_string(program.error());
+    vulkan::Mesh mesh = vulkan::unit_quad();
+    const std::size_t corners = mesh.vertices.size();
+    for (std::size_t i = 0; i < corners; ++i) {
+        mesh.vertices.push_back(mesh.vertices[i]);
+        mesh.vertices.back().uv[0] = 1 - mesh.vertices.back().uv[0];
+    }
+    const std::size_t indices = mesh.indices.size();
+    for (std::size_t i = 0; i < indices; ++i)
+        mesh.indices.push_back(mesh.indices[i] + static_cast<std::uint32_t>(corners));
+    vulkan::Draw draw = vulkan::quad_draw({.spirv = program->spirv.pixel}, size);
+    draw.vertex = {.spirv = program->spirv.vertex};
+    draw.mesh = &mesh;
+    draw.depth_test = true;
+    draw.clear = {-1, -1, -1, -1};
+    const auto pictures = vulkan::drawn(device(), draw);
+    ASSERT_FALSE(pictures.empty());
+    const auto interpreter = Interpreter::prepare(*shader);
+    const auto environment = environment_of(*shader, {}, {});
+    ASSERT_TRUE(interpreter && environment);
+    int none = 0, first = 0, second = 0;
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            Vector expected{-1, -1, -1, -1};
+            float nearest = 2;
+            int seen = 0;
+            for (const int quad : {1, 2}) {
+                const Inputs inputs = inputs_at(*shader, quad == 1 ? x : size - 1 - x, y);
+                const Execution got = interpreter->run(*environment, inputs, Arithmetic::Fp32);
+                if (got.killed || got.depth >= nearest) continue;
+                nearest = got.depth;
+                expected = got.colours[0];
+                seen = quad;
+            }
+            (seen == 0 ? none : seen == 1 ? first : second) += 1;
+            for (std::size_t k = 0; k < 4; ++k)
+                EXPECT_NEAR(pictures[0].at(x, y)[k], expected[k], 1e-5f) << x << " " << y;
+        }
+    // All three kinds are there.
+    EXPECT_GT(std::min({none, first, second}), 20);
+}
 
 // A pixel whose ray just touches the relief may leave the loop a turn earlier on one side: at most
 // one in fifty.  The others differ by roundings of some hundred operations.

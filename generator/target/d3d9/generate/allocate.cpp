@@ -81,6 +81,10 @@ class Allocator {
         std::fill(budget_.begin(), budget_.end(), limits_.dependent_level);
         for (std::size_t i = code_.instructions.size(); i-- > 0;) {
             const VirtualInstruction& instruction = code_.instructions[i];
+            if (instruction.op == Opcode::Texkill) {
+                int& tested = budget_[static_cast<std::size_t>(instruction.sources[0].index)];
+                tested = std::min(tested, limits_.dependent_level - 1);
+            }
             if (instruction.target < 0) continue;
             const int mine = budget_[static_cast<std::size_t>(instruction.target)];
             allowed_[i] = mine;
@@ -186,13 +190,20 @@ class Allocator {
 
     void step(int now) {
         const VirtualInstruction& instruction = code_.instructions[static_cast<std::size_t>(now)];
+        if (instruction.op == Opcode::Texkill) {
+            const auto tested = static_cast<std::size_t>(instruction.sources[0].index);
+            Register& read = registers_[static_cast<std::size_t>(result_.places[tested].number)];
+            if (++read.order > limits_.dependent_level) fail_for_reads(now);
+        }
         if (instruction.target < 0) return;
         const auto target = static_cast<std::size_t>(instruction.target);
         if (result_.places[target].number < 0 && !choose(instruction, now)) return;
         Register& into = registers_[static_cast<std::size_t>(result_.places[target].number)];
         into.order = order_after(instruction, into);
         into.written = true;
-        if (into.order <= allowed_[static_cast<std::size_t>(now)]) return;
+        if (into.order > allowed_[static_cast<std::size_t>(now)]) fail_for_reads(now);
+    }
+    void fail_for_reads(int now) {
         result_.failure = AllocationFailure::DependentReads;
         result_.failed_at = now;
     }

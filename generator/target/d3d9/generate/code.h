@@ -33,7 +33,7 @@ struct VirtualSource {
 struct VirtualInstruction {
     Opcode op = Opcode::Mov;
     int target = -1;  // virtual register
-    int output = -1;  // or number of the graph's output
+    int output = -1;  // or number of the graph's output; texkill has neither, but a source
     Mask mask = full_mask;
     bool saturate = false;
     int sampler = -1;
@@ -72,6 +72,9 @@ void coalesce(Code& code);
 // Outputs of vertex shaders take lanes, signs and any arithmetic: what a mov to an output alone
 // reads is written there instead, and the mov goes.
 void write_outputs_directly(Code& code);
+
+// What a mov brings to the lanes that texkill tests is computed there, and the mov goes.
+void compute_in_tested_lanes(Code& code);
 
 // Definitions for the constants that instructions want; sets the sources' index and swizzle.
 // Nothing if more than `limits.constants` would be needed; `first` is the first free c#.

@@ -99,12 +99,17 @@ class Finish {
 
     bool model_3() const { return limits_.model_3(); }
     File input_file() const { return model_3() || !limits_.pixel() ? File::Input : File::Texture; }
-    // oC#; oPos and oT#, or o0 and from o1 on.
+    // oC# and oDepth; oPos and oT#, or o0 and from o1 on.
     Destination output(int number) const {
         Destination destination;
-        destination.file = File::ColourOut;
-        destination.index = number;
-        if (limits_.pixel()) return destination;
+        if (limits_.pixel()) {
+            const auto k = static_cast<std::size_t>(number);
+            destination.file =
+                graph_->kind_of_output(k) == OutputKind::Depth ? File::DepthOut : File::ColourOut;
+            for (std::size_t i = 0; i < k && destination.file == File::ColourOut; ++i)
+                destination.index += graph_->kind_of_output(i) == OutputKind::Colour;
+            return destination;
+        }
         const int index = graph_->output_places[static_cast<std::size_t>(number)].index;
         const bool position = index == position_output;
         destination.file = model_3()  ? File::Output
@@ -124,10 +129,15 @@ class Finish {
         Instruction to;
         to.op = from.op;
         to.origin = from.origin;
+        if (from.op == Opcode::Texkill) {
+            const Source tested = convert(from.sources[0], allocation);
+            to.destination = Destination{.file = tested.file, .index = tested.index};
+            return to;
+        }
         Destination destination;
         if (from.output >= 0) {
             destination = output(from.output);
-            destination.mask = from.mask;
+            destination.mask = destination.file == File::DepthOut ? full_mask : from.mask;
             destination.saturate = from.saturate;
         } else {
             const Allocation::Place place = place_of(allocation, from.target);
@@ -139,7 +149,8 @@ class Finish {
         to.destination = destination;
         const bool texture = from.sampler >= 0;
         // The one lane may have moved, and what it sees must move with it.
-        const bool one_lane = from.output < 0 && !texture && !is_dot(from.op) &&
+        const bool scalar = from.output < 0 || destination.file == File::DepthOut;
+        const bool one_lane = scalar && !texture && !is_dot(from.op) &&
                               std::has_single_bit(static_cast<unsigned>(from.mask));
         const int lane = std::countr_zero(static_cast<unsigned>(from.mask));
         for (std::size_t k = 0; k < from.sources.size(); ++k) {

@@ -62,6 +62,7 @@ class Joining {
         for (std::size_t k = 0; k < graph.outputs.size(); ++k) {
             InterpolantPlace place;
             place.index = static_cast<int>(k);
+            place.width = static_cast<int>(graph.outputs[k].lanes.size());
             if (block.targets[k] >= 0)
                 place.width = flow_.widths[static_cast<std::size_t>(block.targets[k])];
             graph.outputs[k].lanes.resize(static_cast<std::size_t>(place.width));
@@ -73,6 +74,7 @@ class Joining {
     Graph together() const {
         Graph all;
         all.inputs = interpolant_places(module_, profile_);
+        all.output_kinds = output_kinds_of(module_);
         for (const Graph& graph : graphs_) {
             const int shift = static_cast<int>(all.nodes.size());
             const auto shifted = [&](Operand operand) {
@@ -194,7 +196,7 @@ class Joining {
             if (instruction.output >= 0) {
                 const int target = block.targets[static_cast<std::size_t>(instruction.output)];
                 instruction.output = -1;
-                if (target < 0) {
+                if (target < 0) {  // of the shader
                     instruction.target = -1 - target;
                 } else {
                     // All at once: what one assignment overwrites another may read.

@@ -341,10 +341,12 @@ class Cutter {
         for (Block& block : blocks_) {
             FlowBlock result;
             result.module = values_;
+            result.module.outputs.clear();
             Instruction end;
             end.op = Op::Return;
             for (const auto& [target, value] : block.outputs) {
                 result.targets.push_back(target);
+                result.module.outputs.push_back(declaration_of(target));
                 end.operands.push_back(value);
             }
             for (std::size_t v = 0; v < variable_types_.size(); ++v)
@@ -354,6 +356,11 @@ class Cutter {
             result.module.body.body.push_back(std::move(end));
             flow_.blocks.push_back(std::move(result));
         }
+    }
+    ir::Declaration declaration_of(int target) const {
+        if (target < 0) return module_.outputs[static_cast<std::size_t>(-1 - target)];
+        return {fmt::format("variable{}", target),
+                variable_types_[static_cast<std::size_t>(target)], ir::Semantic::Target};
     }
     // Where it is computed, not read.
     bool defines(const Block& block, ValueId value) const {

@@ -17,6 +17,7 @@ int slots_of(const FlowCode& code) {
 
 Mask positions_of_source(const FlowCode& code, const VirtualInstruction& instruction,
                          std::size_t source) {
+    if (instruction.op == Opcode::Texkill) return instruction.mask;
     switch (info(instruction.op).lanes) {
         case Lanes::None: return 0;
         case Lanes::First: return 0x1;
@@ -72,7 +73,16 @@ std::vector<std::array<int, 2>> successors_of(const FlowCode& code) {
     return result;
 }
 
+// texkill takes neither sign nor swizzle; which lane is which does not matter to it.
+static bool tests_whole_register(const VirtualSource& source) {
+    Mask seen = 0;
+    for (const std::uint8_t lane : source.swizzle) seen = static_cast<Mask>(seen | (1 << lane));
+    return source.kind == VirtualSource::Kind::Temp && !source.negate && !source.absolute &&
+           seen == full_mask;
+}
+
 bool obeys_ports(const VirtualInstruction& instruction) {
+    if (instruction.op == Opcode::Texkill) return tests_whole_register(instruction.sources[0]);
     int input = -1, uniform = -1, plain = 0, absolute = 0;
     std::vector<std::uint32_t> values;
     for (std::size_t s = 0; s < instruction.sources.size(); ++s) {

@@ -44,15 +44,23 @@ struct Node {
     ir::Origin origin;
 };
 
+// A pixel shader's output: oC#, of four components; of one, oDepth, and what drops the pixel where
+// it is below 0.
+enum class OutputKind : std::uint8_t { Colour, Depth, Kill };
+
 struct Graph {
     std::vector<Node> nodes;                 // operands may point anywhere; order() sorts
-    std::vector<Operand> outputs;            // of four components each: oC0, oC1 ...
+    std::vector<Operand> outputs;            // in the module's order
+    std::vector<OutputKind> output_kinds;    // of a pixel shader; all colours where it is shorter
     std::vector<InterpolantPlace> inputs;    // where each of the module's inputs lies
     int variables = 0;                       // registers that code places first
     std::vector<AttributeUsage> attributes;  // what each of them is, in a vertex shader
     // Of a vertex shader: where each output lies; their widths are those of the operands.
     std::vector<InterpolantPlace> output_places;
 
+    OutputKind kind_of_output(std::size_t k) const {
+        return k < output_kinds.size() ? output_kinds[k] : OutputKind::Colour;
+    }
     const Node& node(Lane lane) const { return nodes[static_cast<std::size_t>(lane.node)]; }
     Node& node(Lane lane) { return nodes[static_cast<std::size_t>(lane.node)]; }
 };

@@ -246,18 +246,22 @@ class Lowering {
     Status lower_truth(const ir::Instruction& instruction);
 
     void finish(const ir::Instruction& instruction) {
-        for (const ir::ValueId id : instruction.operands) {
-            Vec refs = value(id);
-            while (is_pixel(profile_) && refs.size() < 4)
+        if (is_pixel(profile_)) graph_.output_kinds = output_kinds_of(module_);
+        for (std::size_t k = 0; k < instruction.operands.size(); ++k) {
+            Vec refs = value(instruction.operands[k]);
+            const bool colour = graph_.kind_of_output(k) == OutputKind::Colour;
+            while (is_pixel(profile_) && colour && refs.size() < 4)
                 refs.push_back(constant(refs.size() == 3 ? 1.0f : 0.0f));
             graph_.outputs.push_back(operand(refs));
             Operand& output = graph_.outputs.back();
             if (!output.negate || !is_pixel(profile_)) continue;
-            Node node;  // oC# takes no sign
-            node.width = 4;
+            Node node;  // none of them takes a sign
+            node.width = static_cast<int>(output.lanes.size());
             node.operands = {output};
             const int index = unique(std::move(node));
-            output = {{{index, 0}, {index, 1}, {index, 2}, {index, 3}}, false};
+            for (std::size_t c = 0; c < output.lanes.size(); ++c)
+                output.lanes[c] = {index, static_cast<int>(c)};
+            output.negate = false;
         }
     }
 
@@ -375,9 +379,9 @@ Result<Vec> Lowering::lower_arithmetic(const ir::Instruction& instruction) {
         case Ddx:
         case Ddy:
             if (profile_ != Profile::ps_2_a && profile_ != Profile::ps_3_0)
-                return refusal("d3d9-op", instruction,
-                               fmt::format("{} has no derivatives; use ps_2_a or ps_3_0",
-                                           name_of(profile_)));
+                return refusal(
+                    "d3d9-op", instruction,
+                    fmt::format("{} has no derivatives; use ps_2_a or ps_3_0", name_of(profile_)));
             {
                 // Its operand is placed like a sum of componentwise operands, so the op is one too.
                 Node node;
@@ -459,6 +463,15 @@ Status Lowering::lower(const ir::Instruction& instruction) {
 }
 
 }  // namespace
+
+std::vector<OutputKind> output_kinds_of(const ir::Module& module) {
+    std::vector<OutputKind> kinds;
+    for (const ir::Declaration& output : module.outputs)
+        kinds.push_back(output.semantic == ir::Semantic::Depth  ? OutputKind::Depth
+                        : output.semantic == ir::Semantic::Clip ? OutputKind::Kill
+                                                                : OutputKind::Colour);
+    return kinds;
+}
 
 Result<Graph> lower(const ir::Module& module, Profile profile, std::vector<std::string>& notes) {
     auto graph = Lowering(module, profile, notes).run();

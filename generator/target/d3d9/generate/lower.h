@@ -16,6 +16,9 @@ namespace intaglio::d3d9 {
 // IR's meaning.
 Result<Graph> lower(const ir::Module& module, Profile profile, std::vector<std::string>& notes);
 
+// What each output of a pixel module is.
+std::vector<OutputKind> output_kinds_of(const ir::Module& module);
+
 // Forms mad and _sat, drops what nothing reads.  Rounding differs by the product's, as mad's does
 // on the hardware of the profiles.
 void simplify(Graph& graph);

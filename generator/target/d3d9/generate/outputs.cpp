@@ -1,4 +1,5 @@
-// Movs to outputs go where the instructions before them can write the output themselves.
+// Movs to outputs, and to what texkill tests, go where the instructions before them can write
+// there themselves.
 #include "generator/target/d3d9/generate/code.h"
 #include "generator/target/d3d9/ops.h"
 
@@ -38,7 +39,66 @@ bool can_go(const Code& code, std::size_t index) {
     return true;
 }
 
+// The one instruction that writes the lane and may as well write others with the same value.
+VirtualInstruction* only_writer(Code& code, int target, int lane) {
+    VirtualInstruction* found = nullptr;
+    for (VirtualInstruction& instruction : code.instructions) {
+        if (instruction.target != target || (instruction.mask >> lane & 1) == 0) continue;
+        if (found != nullptr) return nullptr;
+        found = &instruction;
+    }
+    const bool repeats = found != nullptr && found->mask == 1 << lane &&
+                         (is_componentwise(found->op) || is_scalar(found->op) || is_dot(found->op));
+    return repeats ? found : nullptr;
+}
+
+void repeat_lane(VirtualInstruction& instruction, std::size_t lane) {
+    for (VirtualSource& source : instruction.sources) {
+        if (!is_componentwise(instruction.op)) continue;
+        if (source.kind == VirtualSource::Kind::Constant) {
+            source.wanted.bits.fill(source.wanted.bits[lane]);
+            source.wanted.mask = full_mask;
+        } else {
+            source.swizzle = replicate(source.swizzle[lane]);
+        }
+    }
+    instruction.mask = full_mask;
+}
+
+// Whether it did anything: the mov is then idle.
+bool compute_in_place_of(Code& code, std::size_t index) {
+    const VirtualInstruction& mov = code.instructions[index];
+    const VirtualSource source = mov.sources[0];
+    if (mov.op != Opcode::Mov || mov.saturate || source.negate || mov.mask != full_mask ||
+        source.kind != VirtualSource::Kind::Temp)
+        return false;
+    const int lane = source.swizzle[0];
+    for (std::size_t i = 0; i < code.instructions.size(); ++i)
+        if (i != index && (lanes_read(code.instructions[i], source.index) >> lane & 1) != 0)
+            return false;
+    VirtualInstruction* writer = only_writer(code, source.index, lane);
+    if (writer == nullptr) return false;
+    repeat_lane(*writer, static_cast<std::size_t>(lane));
+    writer->target = mov.target;
+    Mask& lanes = code.lanes[static_cast<std::size_t>(source.index)];
+    lanes = static_cast<Mask>(lanes & ~(1 << lane));
+    return true;
+}
+
 }  // namespace
+
+void compute_in_tested_lanes(Code& code) {
+    for (std::size_t k = 0; k < code.instructions.size(); ++k) {
+        if (code.instructions[k].op != Opcode::Texkill) continue;
+        const int tested = code.instructions[k].sources[0].index;
+        for (std::size_t i = 0; i < k; ++i)
+            if (code.instructions[i].target == tested && compute_in_place_of(code, i)) {
+                code.instructions.erase(code.instructions.begin() + static_cast<std::ptrdiff_t>(i));
+                --k;
+                break;
+            }
+    }
+}
 
 void write_outputs_directly(Code& code) {
     for (std::size_t i = 0; i < code.instructions.size();) {

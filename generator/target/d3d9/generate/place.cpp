@@ -6,7 +6,7 @@
 #include <map>
 #include <tuple>
 
-#include "generator/target/d3d9/generate/code.h"
+#include "generator/target/d3d9/generate/place_homes.h"
 
 namespace intaglio::d3d9 {
 namespace {
@@ -20,177 +20,28 @@ struct Location {
     }
 };
 
-using Positions = std::vector<int>;  // where each component of an operand must appear
-
-class Placement {
+class Placement : Homes {
   public:
     Placement(const Graph& graph, const std::vector<int>& order, const Limits& limits,
               const std::vector<int>& uniform_registers)
-        : graph_(graph),
-          order_(order),
-          limits_(limits),
-          uniforms_(uniform_registers),
-          homes_(graph.nodes.size()) {
+        : Homes(graph), order_(order), limits_(limits), uniforms_(uniform_registers) {
         for (int k = 0; k < graph.variables; ++k) lanes(new_register()) = full_mask;
     }
 
     Code run() {
-        for (std::size_t k = 0; k < graph_.outputs.size(); ++k)
-            want({-1, static_cast<int>(k)}, graph_.outputs[k], positions_of_output(k), true);
-        for (std::size_t i = order_.size(); i-- > 0;) choose_homes(order_[i]);
+        choose(order_);
         for (const int index : order_) emit(index);
-        for (std::size_t k = 0; k < graph_.outputs.size(); ++k) emit_output(static_cast<int>(k));
+        // The test last: an r# that it has tested counts as one more read deep.
+        for (const bool kills : {false, true})
+            for (std::size_t k = 0; k < graph_.outputs.size(); ++k)
+                if ((graph_.kind_of_output(k) == OutputKind::Kill) == kills)
+                    emit_output(static_cast<int>(k));
         if (!limits_.pixel()) write_outputs_directly(code_);
+        if (limits_.pixel()) compute_in_tested_lanes(code_);
         return std::move(code_);
     }
 
   private:
-    struct Home {
-        int target = -1;
-        std::array<int, 4> lane{};
-    };
-
-    const Node& node(int index) const { return graph_.nodes[static_cast<std::size_t>(index)]; }
-    Home& home(int index) { return homes_[static_cast<std::size_t>(index)]; }
-    Mask& lanes(int target) { return code_.lanes[static_cast<std::size_t>(target)]; }
-    int new_register() {
-        code_.lanes.push_back(0);
-        fills_.emplace_back();
-        return static_cast<int>(code_.lanes.size()) - 1;
-    }
-    bool free(int target, int lane) { return (lanes(target) >> lane & 1) == 0; }
-    void occupy(int target, int lane) {
-        lanes(target) = static_cast<Mask>(lanes(target) | (1 << lane));
-    }
-
-    bool is_homeless(int index) {
-        return node(index).kind == Node::Kind::Op && !is_texture_read(node(index).op) &&
-               home(index).target < 0;
-    }
-
-    // Tries to give the node a home in which its components at these lanes of the operand appear.
-    bool settle(int index, const Operand& operand, const Positions& positions, int target) {
-        std::array<int, 4> lane{-1, -1, -1, -1};
-        Mask taken = lanes(target);
-        for (std::size_t k = 0; k < operand.lanes.size(); ++k) {
-            if (operand.lanes[k].node != index) continue;
-            int& mine = lane[static_cast<std::size_t>(operand.lanes[k].component)];
-            if (mine >= 0 || (taken >> positions[k] & 1) != 0) return false;
-            mine = positions[k];
-            taken = static_cast<Mask>(taken | (1 << positions[k]));
-        }
-        // Lanes that other components of the operand need are not for the rest.
-        Mask needed = taken;
-        for (const int position : positions) needed = static_cast<Mask>(needed | (1 << position));
-        for (int c = 0; c < node(index).width; ++c) {
-            int& mine = lane[static_cast<std::size_t>(c)];
-            for (int l = 0; mine < 0 && l < 4; ++l)
-                if ((needed >> l & 1) == 0) {
-                    mine = l;
-                    needed = static_cast<Mask>(needed | (1 << l));
-                    taken = static_cast<Mask>(taken | (1 << l));
-                }
-            if (mine < 0) return false;
-        }
-        home(index) = {target, lane};
-        lanes(target) = taken;
-        return true;
-    }
-
-    // An operand that must be seen at these positions: homes for what has none.
-    void want(std::pair<int, int> user, const Operand& operand, const Positions& positions,
-              bool exact) {
-        std::vector<int> sources;
-        for (const Lane lane : operand.lanes)
-            if (std::find(sources.begin(), sources.end(), lane.node) == sources.end())
-                sources.push_back(lane.node);
-        if (sources.size() == 1) {
-            const int only = sources[0];
-            if (!is_homeless(only) || (node(only).width < 2 && !exact)) return;
-            const int target = new_register();
-            if (!settle(only, operand, positions, target)) return;
-            return;
-        }
-        if (std::all_of(sources.begin(), sources.end(),
-                        [&](int index) { return node(index).kind == Node::Kind::Constant; }))
-            return;
-        const int target = vector_for(operand, positions);
-        for (const int index : sources)
-            if (is_homeless(index)) settle(index, operand, positions, target);
-        for (std::size_t k = 0; k < operand.lanes.size(); ++k) {
-            const int position = positions[k];
-            if (is_at(operand.lanes[k], target, position) || !free(target, position)) continue;
-            occupy(target, position);
-            fills_[static_cast<std::size_t>(target)][static_cast<std::size_t>(position)] =
-                operand.lanes[k];
-        }
-        gathers_[user] = target;
-    }
-    // The register that has most of the operand in place and room for the rest, or a new one.
-    int vector_for(const Operand& operand, const Positions& positions) {
-        std::map<int, int> fitting;
-        for (std::size_t k = 0; k < operand.lanes.size(); ++k) {
-            const Lane lane = operand.lanes[k];
-            if (node(lane.node).kind != Node::Kind::Op || home(lane.node).target < 0) continue;
-            if (is_texture_read(node(lane.node).op)) continue;
-            const Home& h = home(lane.node);
-            if (h.lane[static_cast<std::size_t>(lane.component)] == positions[k])
-                ++fitting[h.target];
-        }
-        int best = -1, most = 0;
-        for (const auto& [target, count] : fitting) {
-            bool room = true;
-            for (std::size_t k = 0; k < operand.lanes.size(); ++k)
-                room = room && (is_at(operand.lanes[k], target, positions[k]) ||
-                                free(target, positions[k]));
-            if (room && count > most) {
-                best = target;
-                most = count;
-            }
-        }
-        return best >= 0 ? best : new_register();
-    }
-    bool is_at(Lane lane, int target, int position) {
-        const auto& fill =
-            fills_[static_cast<std::size_t>(target)][static_cast<std::size_t>(position)];
-        if (fill && *fill == lane) return true;
-        if (node(lane.node).kind != Node::Kind::Op) return false;
-        const Home& h = home(lane.node);
-        return h.target == target && h.lane[static_cast<std::size_t>(lane.component)] == position;
-    }
-
-    Positions positions_of(int index, std::size_t operand) {
-        const Node& n = node(index);
-        const std::size_t width = n.operands[operand].lanes.size();
-        Positions result;
-        for (std::size_t k = 0; k < width; ++k)
-            result.push_back(is_dot(n.op) || is_texture_read(n.op) ? static_cast<int>(k)
-                                                                   : home(index).lane[k]);
-        return result;
-    }
-
-    Positions positions_of_output(std::size_t k) const {
-        if (graph_.output_places.empty()) return {0, 1, 2, 3};
-        const auto& lanes = graph_.output_places[k].lanes;
-        return {lanes.begin(), lanes.begin() + graph_.output_places[k].width};
-    }
-
-    void choose_homes(int index) {
-        const Node& n = node(index);
-        if (home(index).target < 0) {
-            Home& mine = home(index);
-            mine.target = new_register();
-            for (int k = 0; k < n.width; ++k) {
-                mine.lane[static_cast<std::size_t>(k)] = k;
-                occupy(mine.target, k);
-            }
-        }
-        if (is_scalar(n.op)) return;
-        for (std::size_t k = 0; k < n.operands.size(); ++k)
-            want({index, static_cast<int>(k)}, n.operands[k], positions_of(index, k),
-                 is_texture_read(n.op));
-    }
-
     const InterpolantPlace& place_of(const Node& input) const {
         return graph_.inputs[static_cast<std::size_t>(input.slot)];
     }
@@ -452,6 +303,9 @@ class Placement {
     void emit_output(int k) {
         const Operand& operand = graph_.outputs[static_cast<std::size_t>(k)];
         if (!limits_.pixel()) return emit_output_lanes(k, operand);
+        const OutputKind kind = graph_.kind_of_output(static_cast<std::size_t>(k));
+        if (kind == OutputKind::Depth) return emit_depth(k, operand.lanes[0]);
+        if (kind == OutputKind::Kill) return emit_kill(operand.lanes[0]);
         VirtualInstruction mov;
         mov.output = k;
         mov.origin = origin_;
@@ -465,6 +319,30 @@ class Placement {
                            : resolve_output(k, operand)};
         code_.instructions.push_back(std::move(mov));
     }
+    // oDepth takes one lane of any register, by mov.
+    void emit_depth(int k, Lane lane) {
+        if (node(lane.node).kind == Node::Kind::Op) origin_ = node(lane.node).origin;
+        move(-1, 1, one_lane(lane));
+        code_.instructions.back().output = k;
+    }
+    // An r#, all of whose lanes hold the value: model 2 tests x, y and z without a mask, and
+    // MojoShader takes none in model 3 either.
+    void emit_kill(Lane lane) {
+        if (node(lane.node).kind == Node::Kind::Op) origin_ = node(lane.node).origin;
+        const int target = new_register();
+        fill(target, std::vector<Lane>(4, lane), {0, 1, 2, 3});
+        VirtualInstruction test;
+        test.op = Opcode::Texkill;
+        test.sources = {in_place(target)};
+        test.origin = origin_;
+        code_.instructions.push_back(std::move(test));
+    }
+    VirtualSource one_lane(Lane lane) {
+        VirtualSource source = *direct({lane}, {0}, false);
+        if (source.kind != VirtualSource::Kind::Constant)
+            source.swizzle = replicate(locate(lane).lane);
+        return source;
+    }
     VirtualSource resolve_output(int k, const Operand& operand) {
         if (node(operand.lanes[0].node).kind == Node::Kind::Constant &&
             direct(operand.lanes, {0, 1, 2, 3}, false)) {
@@ -475,16 +353,11 @@ class Placement {
         return resolve({-1, k}, operand, {0, 1, 2, 3}, true);
     }
 
-    const Graph& graph_;
     const std::vector<int>& order_;
     const Limits& limits_;
     const std::vector<int>& uniforms_;
-    std::vector<Home> homes_;
-    Code code_;
     ir::Origin origin_;
-    std::vector<std::array<std::optional<Lane>, 4>> fills_;  // by register: lanes kept for movs
-    std::map<std::pair<int, int>, int> gathers_;             // by user and operand
-    std::map<std::tuple<int, int, Lane>, int> written_;      // movs done
+    std::map<std::tuple<int, int, Lane>, int> written_;  // movs done
     std::map<std::pair<std::vector<Lane>, Positions>, int> copies_;
     std::map<std::pair<int, int>, int> register_copies_;
     std::vector<std::pair<Wanted, int>> constant_copies_;

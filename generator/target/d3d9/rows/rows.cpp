@@ -66,8 +66,6 @@ const Capabilities model_2 = {.loops = false,
                               .texture_gradients = false,
                               .vertex_textures = false,
                               .functions = false,
-                              .depth_output = false,
-                              .discard = false,
                               .colour_targets = 4,
                               .texture_reads = 32,
                               .interpolants = {8, 32}};
@@ -79,8 +77,6 @@ Capabilities longer(bool gradients) {
 }
 const Capabilities model_3 = {.branches = false,
                               .functions = false,
-                              .depth_output = false,
-                              .discard = false,
                               .colour_targets = 4,
                               .interpolants = {10, 40}};
 
