@@ -72,6 +72,21 @@ TEST(GenerateLimits, RefusesDerivativesWhereThereAreNone) {
         EXPECT_TRUE(generate_pixel(*record(fading, profile), profile));
 }
 
+// What the shadow's shorter form relies on is said.
+TEST(GenerateNotes, SayThatHeightsLieBelowOne) {
+    const Case shadowed{"parallax,shadow=march,output=displaced",
+                        {{"shadow_min_steps", "4"}, {"shadow_max_steps", "4"}}};
+    const Case lit{"search=none,output=displaced", {}};
+    const auto notes_of = [](const Case& a_case) {
+        std::vector<std::string> notes;
+        EXPECT_TRUE(generate_pixel(*record(a_case, Profile::ps_2_a), Profile::ps_2_a, &notes));
+        return notes;
+    };
+    EXPECT_THAT(notes_of(shadowed), ::testing::Contains(HasSubstr("heights must lie in [0, 1]")));
+    EXPECT_THAT(notes_of(lit),
+                ::testing::Not(::testing::Contains(HasSubstr("heights must lie in [0, 1]"))));
+}
+
 TEST(GenerateLimits, NamesLimitStepAndLine) {
     const auto program = record({"parallax_occlusion", {{"taps", "60"}}}, Profile::ps_2_0);
     ASSERT_TRUE(program);

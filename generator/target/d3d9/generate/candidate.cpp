@@ -12,7 +12,9 @@ namespace intaglio::d3d9 {
 
 bool better(const Candidate& a, const Candidate& b) {
     if (a.fits() != b.fits()) return a.fits();
-    const Slots x = slots_of(a.shader), y = slots_of(b.shader);
+    if (a.at_least.has_value() != b.at_least.has_value()) return !a.at_least;
+    const Slots x = a.at_least ? *a.at_least : slots_of(a.shader),
+                y = b.at_least ? *b.at_least : slots_of(b.shader);
     return std::pair(x.arithmetic, x.texture) < std::pair(y.arithmetic, y.texture);
 }
 

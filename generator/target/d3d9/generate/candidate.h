@@ -9,6 +9,7 @@
 #include "generator/base/result.h"
 #include "generator/target/d3d9/generate/code.h"
 #include "generator/target/d3d9/legality.h"
+#include "generator/target/d3d9/ops.h"
 
 namespace intaglio::d3d9 {
 
@@ -19,10 +20,13 @@ struct Candidate {
     std::vector<Violation> violations;
     std::optional<AllocationFailure> failure;
     int failed_at = -1;
+    // Refused before packing: no shader of the program takes fewer.
+    std::optional<Slots> at_least;
+    int iterations = 0;  // of each long loop, if not all were counted then
     bool fits() const { return !failure && violations.empty(); }
 };
 
-// Whether a fits and b does not, or it takes fewer slots.
+// Whether a fits and b does not, or is packed and b is not, or takes fewer slots.
 bool better(const Candidate& a, const Candidate& b);
 
 // The best that packing, ordering and allocation find.

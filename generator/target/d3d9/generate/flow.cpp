@@ -7,6 +7,7 @@
 #include "generator/target/d3d9/generate/finish.h"
 #include "generator/target/d3d9/generate/flow_blocks.h"
 #include "generator/target/d3d9/generate/flow_code.h"
+#include "generator/target/d3d9/generate/least.h"
 #include "generator/target/d3d9/generate/loop_rewrites.h"
 #include "generator/target/d3d9/generate/lower.h"
 #include "generator/target/d3d9/generate/pack.h"
@@ -37,6 +38,8 @@ class Joining {
         }
         const Graph all = together();
         uniforms_ = assign_uniforms(module_, all, next_constant_);
+        const Slots least = least_slots(graphs_, true);
+        if (is_far_too_long(least, profile_)) return unpacked(module_, graphs_, profile_, least);
         for (const Graph& graph : graphs_) alternatives_.push_back(alternatives_of(graph));
         FlowCode best = best_choice();
         Candidate candidate;

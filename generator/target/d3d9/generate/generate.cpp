@@ -2,6 +2,7 @@
 // the smallest pixel shader decides what the vertex shader computes for it.
 #include "generator/target/d3d9/generate/generate.h"
 
+#include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@
 #include "generator/target/d3d9/generate/flow.h"
 #include "generator/target/d3d9/generate/fold_divisions.h"
 #include "generator/target/d3d9/generate/interpolants.h"
+#include "generator/target/d3d9/generate/least.h"
 #include "generator/target/d3d9/generate/loop_plan.h"
 #include "generator/target/d3d9/generate/lower.h"
 #include "generator/target/d3d9/generate/vertex.h"
@@ -34,7 +36,14 @@ Result<ir::Program> straighten(const ir::Program& program, const LoopPlan& plan,
             if (rolled.count(hit.loop) != 0) return passes::FirstHitForm::Chain;
             return hit.only_whether ? passes::FirstHitForm::AnyHit : plan.form;
         };
-        passes::lower_first_hit(result.pixel, choose, passes::Rounding::Free);
+        for (const passes::FirstHit& hit :
+             passes::lower_first_hit(result.pixel, choose, passes::Rounding::Free))
+            if (hit.form == passes::FirstHitForm::AnyHit)
+                notes.push_back(fmt::format(
+                    "The loop '{}' is only asked whether it hits and may go on where its ray has "
+                    "left the relief at the top: heights must lie in [0, 1], as in "
+                    "textures of 8 or 16 bits.",
+                    hit.loop));
     }
     unroll_others(result.pixel);
     apply(LoopPlan{}, result.vertex, Profile::ps_2_0);
@@ -54,7 +63,30 @@ struct PixelStage {
     ir::Program program;
 };
 
+// Enough iterations to tell that unrolling more of them is too much.
+constexpr int telling_trips = 512;
+
+// Refused by the first iterations of its long loops, where these are far too much already.
+std::optional<PixelStage> refuse_early(const ir::Program& recorded, Profile profile,
+                                       const LoopPlan& plan) {
+    ir::Program cut = recorded;
+    apply(plan, cut.pixel, profile);
+    if (!cut_others(cut.pixel, telling_trips)) return std::nullopt;
+    std::vector<std::string> notes;
+    auto program = straighten(cut, plan, profile, notes);
+    if (!program || has_loops(program->pixel)) return std::nullopt;
+    const auto graph = lower(program->pixel, profile, notes);
+    if (!graph) return std::nullopt;
+    const Slots least = least_slots({*graph}, profile == Profile::ps_3_0);
+    if (!is_far_too_long(least, profile)) return std::nullopt;
+    PixelStage result{unpacked(program->pixel, {*graph}, profile, least), std::move(*program)};
+    result.candidate.iterations = telling_trips;
+    result.candidate.notes = std::move(notes);
+    return result;
+}
+
 Result<PixelStage> attempt(const ir::Program& recorded, Profile profile, const LoopPlan& plan) {
+    if (auto early = refuse_early(recorded, profile, plan)) return std::move(*early);
     std::vector<std::string> notes;
     auto program = straighten(recorded, plan, profile, notes);
     if (!program) return program.error();
@@ -65,15 +97,25 @@ Result<PixelStage> attempt(const ir::Program& recorded, Profile profile, const L
         if (!candidate) return candidate.error();
         best = std::move(*candidate);
     }
-    if (!has_loops(module)) {
+    if (!has_loops(module) && !(best && best->at_least)) {
         auto graph = lower(module, profile, notes);
         if (!graph) return graph.error();
-        Candidate candidate = best_of(module, *graph, profile);
+        const Slots least = least_slots({*graph}, false);
+        Candidate candidate = is_far_too_long(least, profile)
+                                  ? unpacked(module, {*graph}, profile, least)
+                                  : best_of(module, *graph, profile);
         if (!best || better(candidate, *best)) best = std::move(candidate);
     }
     PixelStage result{std::move(*best), std::move(*program)};
     result.candidate.notes = std::move(notes);
     return result;
+}
+
+// What both need at least, where both are far too long.
+std::optional<Slots> least_of(const Candidate& a, const Candidate& b) {
+    if (!a.at_least || !b.at_least) return std::nullopt;
+    return Slots{std::min(a.at_least->arithmetic, b.at_least->arithmetic),
+                 std::min(a.at_least->texture, b.at_least->texture)};
 }
 
 // The smallest, whether it fits or not.
@@ -87,7 +129,13 @@ Result<PixelStage> smallest_pixel_stage(const ir::Program& recorded, Profile pro
     for (const LoopPlan& plan : loop_plans(recorded.pixel, profile)) {
         auto stage = attempt(recorded, profile, plan);
         if (!stage) return stage.error();
-        if (!best || better(stage->candidate, best->candidate)) best = std::move(*stage);
+        if (!best) {
+            best = std::move(*stage);
+            continue;
+        }
+        const std::optional<Slots> least = least_of(stage->candidate, best->candidate);
+        if (better(stage->candidate, best->candidate)) best = std::move(*stage);
+        if (least) best->candidate.at_least = least;
     }
     for (const ir::Sampler& sampler : recorded.pixel.samplers)
         if (sampler.filter == ir::Sampler::Filter::Nearest)
@@ -152,6 +200,11 @@ Result<Attempt> attempt_program(const ir::Program& recorded, Profile profile) {
     } else {
         result.refusal = refuse(recorded.name, candidate);
         result.only_slots = candidate.failure.has_value();
+        if (candidate.at_least)
+            candidate.notes.push_back(
+                fmt::format("It is so much too long for {} that its slots are shown as they are "
+                            "before packing.",
+                            name_of(profile)));
     }
     result.pixel = std::move(candidate.shader);
     result.notes = std::move(candidate.notes);

@@ -3,7 +3,8 @@
 //
 // Programs come as recorded, not yet optimised; what comes out is always legal by check(), and the
 // same program gives the same shaders.  All refuse [d3d9-limit] what does not fit, in a sentence
-// that names the limit, by how much, the step and line that spend most, and what to try;
+// that names the limit, by how much, the step and line that spend most, and what to try; what is
+// far too long is refused before packing, with a lower bound of what it needs ("at least");
 // [d3d9-level] and [d3d9-op] as lower(); [d3d9-texture] a vertex stage's texture read that its
 // profile does not have; [d3d9-stage] a profile of the other stage.  Notes are what whoever uses
 // the shader must know.
@@ -36,7 +37,7 @@ struct Attempt {
     std::optional<Shader> vertex;       // nothing where the pixel stage is refused
     std::optional<Diagnostic> refusal;  // of the pixel stage
     bool only_slots =
-        false;  // refused for want of registers: of the pixel stage only slots are right
+        false;  // refused for want of registers, or before packing: only slots are right
     std::vector<std::string> interpolants;
     std::vector<std::string> notes;
 };

@@ -46,6 +46,18 @@ std::set<std::string> apply(const LoopPlan& plan, ir::Module& pixel, Profile pro
     return rolled;
 }
 
+bool cut_others(ir::Module& pixel, int most_trips) {
+    bool any = false;
+    passes::for_each_instruction(pixel.body, [&](ir::Instruction& instruction) {
+        if (instruction.op != ir::Op::Loop || instruction.loop.form == ir::LoopForm::Rolled ||
+            instruction.loop.trip_count <= most_trips)
+            return;
+        instruction.loop.trip_count = most_trips;
+        any = true;
+    });
+    return any;
+}
+
 void unroll_others(ir::Module& pixel) {
     passes::for_each_instruction(pixel.body, [&](ir::Instruction& instruction) {
         if (instruction.op == ir::Op::Loop && instruction.loop.form != ir::LoopForm::Rolled)

@@ -26,6 +26,8 @@ std::vector<LoopPlan> loop_plans(const ir::Module& pixel, Profile profile);
 // Marks the loops that stay and answers their names; the others are as if the schedule said
 // nothing, so that searches among them may be lowered.
 std::set<std::string> apply(const LoopPlan& plan, ir::Module& pixel, Profile profile);
+// Cuts those that do not stay to so many iterations; whether there was one to cut.
+bool cut_others(ir::Module& pixel, int most_trips);
 // Then: all that do not stay are to be unrolled.
 void unroll_others(ir::Module& pixel);
 

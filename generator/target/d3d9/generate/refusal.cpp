@@ -17,7 +17,7 @@ std::string place_of(const Shader& shader, const ir::Origin& origin) {
 }
 
 // "march takes 61 of them, most at templates/search/steep_parallax.cpp:43"
-std::string spender(const Shader& shader) {
+std::string spender(const Shader& shader, std::string_view when) {
     std::map<int, int> steps;
     for (const Instruction& instruction : shader.instructions)
         steps[instruction.origin.step] += slots_of(instruction).total();
@@ -34,21 +34,22 @@ std::string spender(const Shader& shader) {
                          [](const auto& a, const auto& b) { return a.second < b.second; });
     const bool named = most->first >= 0 && most->first < static_cast<int>(shader.steps.size());
     return fmt::format(
-        "{} takes {} of its {} slots, {} of them at {}",
+        "{} takes {} of its {} slots{}, {} of them at {}",
         named ? "the step '" + shader.steps[static_cast<std::size_t>(most->first)].name + "'"
               : "work outside the steps",
-        most->second, slots_of(shader).total(), line->second,
+        most->second, slots_of(shader).total(), when, line->second,
         line->first.empty() ? "an unknown line" : line->first);
 }
 
 std::string limit_exceeded(const Candidate& candidate) {
     const Limits& limits = limits_of(candidate.shader.profile);
-    const Slots slots = slots_of(candidate.shader);
+    const Slots slots = candidate.at_least ? *candidate.at_least : slots_of(candidate.shader);
+    const std::string_view least = candidate.at_least ? "at least " : "";
     std::vector<std::string> parts;
     const auto over = [&](std::string_view what, int used, int limit) {
         if (used > limit)
-            parts.push_back(fmt::format("needs {} {}, {} more than the {} it has", used, what,
-                                        used - limit, limit));
+            parts.push_back(fmt::format("needs {}{} {}, {} more than the {} it has", least, used,
+                                        what, used - limit, limit));
     };
     over("arithmetic slots", slots.arithmetic, limits.arithmetic_slots);
     over("texture slots", slots.texture, limits.texture_slots);
@@ -86,9 +87,17 @@ std::string_view advice(Profile profile) {
 
 Diagnostic refuse(const std::string& name, const Candidate& candidate) {
     const Profile profile = candidate.shader.profile;
+    std::string when;
+    if (candidate.iterations > 0)
+        when = fmt::format(
+            " before packing, in at most {} iterations of a loop (what it needs at "
+            "least was counted there)",
+            candidate.iterations);
+    else if (candidate.at_least)
+        when = " before packing (what it needs at least was counted there)";
     return input_error("d3d9-limit", fmt::format("{} {} for {}: {}; {}", name_of(profile),
                                                  limit_exceeded(candidate), name,
-                                                 spender(candidate.shader), advice(profile)));
+                                                 spender(candidate.shader, when), advice(profile)));
 }
 
 }  // namespace intaglio::d3d9
