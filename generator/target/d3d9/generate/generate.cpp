@@ -64,14 +64,14 @@ struct PixelStage {
 };
 
 // Enough iterations to tell that unrolling more of them is too much.
-constexpr int telling_trips = 512;
+constexpr int telling_trips[] = {64, 512};
 
 // Refused by the first iterations of its long loops, where these are far too much already.
 std::optional<PixelStage> refuse_early(const ir::Program& recorded, Profile profile,
-                                       const LoopPlan& plan) {
+                                       const LoopPlan& plan, int trips) {
     ir::Program cut = recorded;
     apply(plan, cut.pixel, profile);
-    if (!cut_others(cut.pixel, telling_trips)) return std::nullopt;
+    if (!cut_others(cut.pixel, trips)) return std::nullopt;
     std::vector<std::string> notes;
     auto program = straighten(cut, plan, profile, notes);
     if (!program || has_loops(program->pixel)) return std::nullopt;
@@ -80,13 +80,14 @@ std::optional<PixelStage> refuse_early(const ir::Program& recorded, Profile prof
     const Slots least = least_slots({*graph}, profile == Profile::ps_3_0);
     if (!is_far_too_long(least, profile)) return std::nullopt;
     PixelStage result{unpacked(program->pixel, {*graph}, profile, least), std::move(*program)};
-    result.candidate.iterations = telling_trips;
+    result.candidate.iterations = trips;
     result.candidate.notes = std::move(notes);
     return result;
 }
 
 Result<PixelStage> attempt(const ir::Program& recorded, Profile profile, const LoopPlan& plan) {
-    if (auto early = refuse_early(recorded, profile, plan)) return std::move(*early);
+    for (const int trips : telling_trips)
+        if (auto early = refuse_early(recorded, profile, plan, trips)) return std::move(*early);
     std::vector<std::string> notes;
     auto program = straighten(recorded, plan, profile, notes);
     if (!program) return program.error();
