@@ -10,6 +10,7 @@ function(intaglio_judge_test name)
   endif()
   add_executable(test_${name} ${arg_SOURCES} "${PROJECT_SOURCE_DIR}/tests/judge/judge_main.cpp")
   target_link_libraries(test_${name} PRIVATE intaglio_compile_options intaglio_judge ${arg_LINKS} GTest::gmock)
+  intaglio_test_options(test_${name})
   # The judge sees text and bytes, which are the same in a sanitized build: there the unit tests make them.
   if(INTAGLIO_SANITIZE)
     set_target_properties(test_${name} PROPERTIES EXCLUDE_FROM_ALL ON)

@@ -251,6 +251,9 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
             ->required();
         command->add_option("--height", options->height,
                             "A height map in place of the scene's maps");
+        command
+            ->add_option("--size", options->size, "Pixels a side in place of the scene's")
+            ->check(CLI::IsMember({8, 16, 32, 64, 128, 256, 512, 1024, 2048}));
         command->add_option("--device", options->device,
                             "Part of a Vulkan device's name; the scene's, or lavapipe");
         command->add_flag("--validation", options->validation, "With the Vulkan validation layers");

@@ -121,6 +121,7 @@ struct MeasureOptions {
     std::string scene;
     std::string output;  // folder
     std::string height;  // a map in place of the scene's
+    int size = 0;        // pixels a side in place of the scene's; 0: the scene's
     std::string device;
     bool validation = false;
 };

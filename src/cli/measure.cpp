@@ -65,6 +65,7 @@ Status measure_scene(const dsl::Catalogue& catalogue, const MeasureOptions& opti
     Result<scene::Scene> scene = scene::read_scene_with_sources(options.scene, own_map);
     if (!scene) return scene.error();
     measure::Plan& plan = scene->plan;
+    if (options.size > 0) plan.size = options.size;
     if (!options.device.empty()) plan.device = options.device;
     plan.validation = options.validation;
 
