@@ -74,8 +74,8 @@ endfunction()
 option(INTAGLIO_SANITIZE_ALL "In a sanitized build also the tests that are marked PLAIN" OFF)
 
 # intaglio_test(NAME SOURCES a.cpp ... LINKS lib ... [LABEL unit] [PLAIN]): one GoogleTest program, one ctest.
-# PLAIN: left out of sanitized builds unless INTAGLIO_SANITIZE_ALL is on, because what it runs of our code other
-# tests run there as well, and it looks at pixels, not at memory.
+# PLAIN: left out of sanitized builds, where it takes minutes, unless INTAGLIO_SANITIZE_ALL is on: most of what it runs
+# of our code other tests run there as well.
 function(intaglio_test name)
   cmake_parse_arguments(arg "PLAIN" "LABEL;TIMEOUT" "SOURCES;LINKS" ${ARGN})
   add_executable(test_${name} ${arg_SOURCES})
