@@ -61,7 +61,7 @@ Diagnostic target_limit(const ir::Module& module, const ir::Origin& origin, std:
 }
 
 bool is_refusal(const Diagnostic& error) {
-    constexpr std::string_view codes[] = {"target-limit", "d3d9-limit",   "d3d9-level",
+    constexpr std::string_view codes[] = {"target-limit", "d3d9-limit",   "d3d9-level", "d3d9-loop",
                                           "d3d9-op",      "d3d9-texture", "d3d9-stage"};
     return std::find(std::begin(codes), std::end(codes), error.code) != std::end(codes);
 }
