@@ -22,9 +22,12 @@ using Cell = std::conditional_t<std::is_same_v<T, float>, std::uint32_t, std::ui
 
 template <typename T>
 struct Arithmetic {
+    using Number = T;
     static constexpr bool flushes = std::is_same_v<T, float>;
     static constexpr T smallest = std::numeric_limits<T>::min();
 
+    // A constant, an input or a texel as an instruction finds it.
+    static T load(double value) { return static_cast<T>(value); }
     // A denormal counts as zero.
     static T in(T value) {
         if constexpr (flushes)

@@ -176,9 +176,10 @@ std::int32_t nearest_int(double value) {
     return static_cast<std::int32_t>(std::clamp(std::round(value), -2147483648.0, 2147483647.0));
 }
 
-template <typename T>
+template <typename A>
 class Run {
   public:
+    using T = typename A::Number;
     using Bits = Cell<T>;
 
     Run(const Evaluator::Prepared& prepared, const Environment& environment)
@@ -191,7 +192,7 @@ class Run {
             for (std::size_t j = 0; j < prepared.constants.size(); ++j) {
                 const auto [cell, bits] = prepared.constants[j];
                 lane(i)[cell] = prepared.float_constants[j]
-                                    ? Compute<T>::bits(static_cast<T>(std::bit_cast<float>(bits)))
+                                    ? Compute<A>::bits(A::load(std::bit_cast<float>(bits)))
                                     : bits;
             }
     }
@@ -212,8 +213,8 @@ class Run {
             for (int i = 0; i < type.width; ++i) {
                 const Bits bits = cells_[cell + static_cast<std::size_t>(i)];
                 output[static_cast<std::size_t>(i)] =
-                    type.scalar == Scalar::Float ? static_cast<double>(Compute<T>::number(bits))
-                                                 : static_cast<double>(Compute<T>::integer(bits));
+                    type.scalar == Scalar::Float ? static_cast<double>(Compute<A>::number(bits))
+                                                 : static_cast<double>(Compute<A>::integer(bits));
             }
             evaluation_.outputs.push_back(output);
         }
@@ -235,9 +236,9 @@ class Run {
     bool step(const Node& node, Bits* cells) {
         if (is_pure(node.op)) {
             count();
-            typename Compute<T>::Operands operands{};
+            typename Compute<A>::Operands operands{};
             for (std::size_t i = 0; i < max_operands; ++i) operands[i] = cells + node.operands[i];
-            Compute<T>::run(node.kernel, operands, cells + node.result);
+            Compute<A>::run(node.kernel, operands, cells + node.result);
             return false;
         }
         switch (node.op) {
@@ -275,7 +276,7 @@ class Run {
     void loop(const Node& node, Bits* cells) {
         copy(prepared_.transfers[node.transfers[0]], cells);
         for (int i = 0; i < node.trip_count; ++i) {
-            cells[node.index_cell] = Compute<T>::integer_bits(i);
+            cells[node.index_cell] = Compute<A>::integer_bits(i);
             if (block(node.blocks[0], cells)) return;  // the break_if has delivered the results
         }
         copy(prepared_.transfers[node.transfers[1]], cells);
@@ -286,8 +287,8 @@ class Run {
             const double value = values[static_cast<std::size_t>(i)];
             Bits& cell = cells[node.result + static_cast<std::uint32_t>(i)];
             switch (node.scalar) {
-                case Scalar::Float: cell = Compute<T>::bits(static_cast<T>(value)); break;
-                case Scalar::Int: cell = Compute<T>::integer_bits(nearest_int(value)); break;
+                case Scalar::Float: cell = Compute<A>::bits(A::load(value)); break;
+                case Scalar::Int: cell = Compute<A>::integer_bits(nearest_int(value)); break;
                 case Scalar::Bool: cell = value != 0 ? 1 : 0; break;
             }
         }
@@ -312,7 +313,7 @@ class Run {
     std::array<T, 3> coordinate(const Node& node, std::size_t operand, const Bits* cells) const {
         std::array<T, 3> result{};
         for (std::size_t i = 0; i < static_cast<std::size_t>(node.width); ++i)
-            result[i] = Compute<T>::number(cells[node.operands[operand] + i]);
+            result[i] = Compute<A>::number(cells[node.operands[operand] + i]);
         return result;
     }
 
@@ -320,7 +321,7 @@ class Run {
         const Texture* texture = texture_of(node);
         if (texture == nullptr) return write_sample(node, {}, cells);
         const T level = node.op == Op::SampleLevel
-                            ? Compute<T>::number(cells[node.operands[1]])
+                            ? Compute<A>::number(cells[node.operands[1]])
                             : level_of_gradients(*texture, coordinate(node, 1, cells),
                                                  coordinate(node, 2, cells));
         write_sample(node, read(node, *texture, level, cells), cells);
@@ -339,15 +340,15 @@ class Run {
 
     void write_sample(const Node& node, const std::array<T, 4>& texel, Bits* cells) {
         evaluation_.texture_reads += lane_ == 0 ? 1 : 0;
-        for (std::size_t i = 0; i < 4; ++i) cells[node.result + i] = Compute<T>::bits(texel[i]);
+        for (std::size_t i = 0; i < 4; ++i) cells[node.result + i] = Compute<A>::bits(A::load(texel[i]));
     }
 
     // Component of a lane's first operand less that of this pixel; 0 without neighbours.
     T difference(const Node& node, int neighbour, std::size_t component) {
         if (lane_count_ == 1) return 0;
         const std::size_t cell = node.operands[0] + component;
-        return Arithmetic<T>::sub(Compute<T>::number(lane(neighbour)[cell]),
-                                  Compute<T>::number(lane(0)[cell]));
+        return A::sub(Compute<A>::number(lane(neighbour)[cell]),
+                                  Compute<A>::number(lane(0)[cell]));
     }
 
     // All lanes share one difference, as the pixels of a quad do in Vulkan's coarse derivatives.
@@ -356,7 +357,7 @@ class Run {
         count();
         if (node.op == Op::SampleImplicit) return implicit_sample(node);
         for (std::size_t i = 0; i < static_cast<std::size_t>(node.width); ++i) {
-            const Bits bits = Compute<T>::bits(difference(node, node.op == Op::Ddx ? 1 : 2, i));
+            const Bits bits = Compute<A>::bits(difference(node, node.op == Op::Ddx ? 1 : 2, i));
             for (int j = 0; j < lane_count_; ++j) lane(j)[node.result + i] = bits;
         }
     }
@@ -394,8 +395,13 @@ Evaluator::Evaluator(const Module& module) {
 }
 
 Evaluation Evaluator::run(const Environment& environment, Precision precision) const {
-    return precision == Precision::Single ? Run<float>(*prepared_, environment).run()
-                                          : Run<double>(*prepared_, environment).run();
+    switch (precision) {
+        case Precision::Single: return Run<Arithmetic<float>>(*prepared_, environment).run();
+        case Precision::Double: return Run<Arithmetic<double>>(*prepared_, environment).run();
+        case Precision::Narrow24: return Run<Narrow<Format24>>(*prepared_, environment).run();
+        case Precision::Narrow16: return Run<Narrow<Format16>>(*prepared_, environment).run();
+    }
+    return {};
 }
 
 }  // namespace intaglio::ir

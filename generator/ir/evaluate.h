@@ -1,7 +1,10 @@
-// Runs a module on the CPU, in binary32 or binary64.  The semantics are those of the ops table,
-// with lavapipe's choice wherever a row leaves one to the device (arithmetic.h says how denormals
-// and NaNs go).  In Single, every op that the table calls exact gives exactly the bits that it
-// gives on a device; Double is the yardstick for rounding.
+// Runs a module on the CPU, in binary32, binary64 or a narrow format.  The semantics are those of
+// the ops table, with lavapipe's choice wherever a row leaves one to the device (arithmetic.h says
+// how denormals and NaNs go).  In Single, every op that the table calls exact gives exactly the
+// bits that it gives on a device; Double is the yardstick for rounding.  Narrow24 and Narrow16 are
+// what pixel shader hardware of the Direct3D 9 years computed in (narrow.h): every value is one of
+// the format, every division a reciprocal and a product; coordinates reach the texture unit in the
+// format, whose own arithmetic stays binary32.
 #pragma once
 
 #include <array>
@@ -15,7 +18,7 @@
 
 namespace intaglio::ir {
 
-enum class Precision { Single, Double };
+enum class Precision { Single, Double, Narrow24, Narrow16 };
 
 // What a module reads.  Numbers are doubles whatever the type: an int is the nearest int32 (NaN:
 // 0), a bool holds unless 0.  Whatever is missing reads as 0.

@@ -22,11 +22,11 @@ std::optional<ConstantBits> evaluate_op(const Instruction& instruction,
                                         std::span<const ConstantBits> operands, int result_width) {
     if (!is_pure(instruction.op)) return std::nullopt;
     const Kernel kernel = make_kernel(instruction, operand_types.data(), result_width);
-    Compute<float>::Operands pointers{};
+    Compute<Arithmetic<float>>::Operands pointers{};
     for (std::size_t i = 0; i < std::min(operands.size(), max_operands); ++i)
         pointers[i] = operands[i].data();
     ConstantBits result{};
-    Compute<float>::run(kernel, pointers, result.data());
+    Compute<Arithmetic<float>>::run(kernel, pointers, result.data());
     return result;
 }
 

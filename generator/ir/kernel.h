@@ -8,6 +8,7 @@
 
 #include "generator/ir/arithmetic.h"
 #include "generator/ir/module.h"
+#include "generator/ir/narrow.h"
 
 namespace intaglio::ir {
 
@@ -29,15 +30,16 @@ constexpr bool is_pure(Op op) { return op >= Op::Add && op <= Op::Swizzle; }
 // The kernel of a pure instruction over operands of these types.
 Kernel make_kernel(const Instruction& instruction, const Type* operand_types, int result_width);
 
-template <typename T>
+// `A`: Arithmetic of a type, or Narrow of a format.
+template <typename A>
 class Compute {
   public:
+    using T = typename A::Number;
     using Bits = Cell<T>;
     using Operands = std::array<const Bits*, max_operands>;
 
     // The result must not overlap the operands.
     static void run(const Kernel& kernel, const Operands& operands, Bits* result) {
-        using A = Arithmetic<T>;
         switch (kernel.op) {
             case Op::Add: return numeric2<A::add, IntArithmetic::add>(kernel, operands, result);
             case Op::Sub: return numeric2<A::sub, IntArithmetic::sub>(kernel, operands, result);
@@ -80,7 +82,7 @@ class Compute {
                 return;
             case Op::ToFloat:
                 for (int i = 0; i < kernel.width; ++i)
-                    result[i] = bits(static_cast<T>(integer(operands[0][i])));
+                    result[i] = bits(A::load(integer(operands[0][i])));
                 return;
             case Op::Compose: return compose(kernel, operands, result);
             case Op::Swizzle:
@@ -125,7 +127,6 @@ class Compute {
     template <typename Relation>
     static void compare(const Kernel& kernel, const Operands& operands, Bits* result,
                         Relation relation) {
-        using A = Arithmetic<T>;
         const bool holds =
             kernel.scalar == Scalar::Float
                 ? relation(A::in(number(operands[0][0])), A::in(number(operands[1][0])))
@@ -135,25 +136,24 @@ class Compute {
 
     static void lerp(const Kernel& kernel, const Operands& operands, Bits* result) {
         for (int i = 0; i < kernel.width; ++i)
-            result[i] = bits(Arithmetic<T>::lerp(number(operands[0][i]), number(operands[1][i]),
-                                                 number(operands[2][i])));
+            result[i] = bits(
+                A::lerp(number(operands[0][i]), number(operands[1][i]), number(operands[2][i])));
     }
 
     static void dot(const Kernel& kernel, const Operands& operands, Bits* result) {
-        T sum = Arithmetic<T>::mul(number(operands[0][0]), number(operands[1][0]));
+        T sum = A::mul(number(operands[0][0]), number(operands[1][0]));
         for (int i = 1; i < kernel.width; ++i)
-            sum = Arithmetic<T>::add(
-                sum, Arithmetic<T>::mul(number(operands[0][i]), number(operands[1][i])));
+            sum = A::add(sum, A::mul(number(operands[0][i]), number(operands[1][i])));
         result[0] = bits(sum);
     }
 
     static void cross(const Operands& operands, Bits* result) {
         const auto product = [&](int i, int j) {
-            return Arithmetic<T>::mul(number(operands[0][i]), number(operands[1][j]));
+            return A::mul(number(operands[0][i]), number(operands[1][j]));
         };
         for (int i = 0; i < 3; ++i) {
             const int j = (i + 1) % 3, k = (i + 2) % 3;
-            result[i] = bits(Arithmetic<T>::sub(product(j, k), product(k, j)));
+            result[i] = bits(A::sub(product(j, k), product(k, j)));
         }
     }
 
