@@ -4,6 +4,7 @@
 #include "tests/unit/shading/pixel.h"
 
 #include "generator/passes/pipeline.h"
+#include "src/maps/bake_phong.h"
 
 namespace intaglio::templates::testing {
 namespace {
@@ -124,6 +125,86 @@ TEST(Shading, WhatReadsNoNormalCausesNoNormalRead) {
         << "nor light, nor shadow";
     EXPECT_THAT(what_is_read("search=none,shading=ambient_only"),
                 UnorderedElementsAre("colour_map", "uv"));
+}
+
+Vec3 unit(Vec3 v) {
+    const double length = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+    return {v.x / length, v.y / length, v.z / length};
+}
+
+// "C = byte pointed to by P + B": P the polygon's place in the phong map, B one word of the bump
+// map, the high byte along y and the low byte along x.
+double pointed_to(const maps::Image& phong, long P, long B) {
+    return phong.at(static_cast<int>((P + B) % 256), static_cast<int>((P + B) / 256), 0);
+}
+
+struct BumpPixel {
+    Draw draw;
+    Vec3 normal, halfway;
+    long P, B;
+};
+
+// A plane that rises by `slopes`, its words by differences, and the polygon's pointer.
+BumpPixel bump_pixel(const HeightField& plane, Vec2 slopes, Vec3 light) {
+    BumpPixel pixel{Draw{plane}, unit({-slopes.x, -slopes.y, 1}), light, 0, 0};
+    pixel.draw.to_eye = pixel.draw.to_light = light;  // the source's light and eye are one
+    pixel.draw.scale = 1;
+    pixel.draw.gloss = 0;
+    const double texels = 256 / (2 * maps::phong_edge);
+    const auto place = [&](double lean) { return std::lround(lean * texels + 127.5); };
+    pixel.P = place(-light.y) * 256 + place(-light.x);
+    pixel.B = std::lround(pixel.normal.y * texels) * 256 + std::lround(pixel.normal.x * texels);
+    return pixel;
+}
+
+TEST(FastBumpMapping, TheByteAtTheSumIsOurBrightness) {
+    const maps::Image phong = *maps::bake_phong();
+    ir::Texture map;
+    map.width = map.height = 256;
+    std::vector<float>& texels = map.levels.emplace_back();
+    for (int i = 0; i < 256 * 256; ++i)
+        texels.insert(texels.end(), {phong.at(i % 256, i / 256, 0), 0, 0, 0});
+    Random random(reference::witness::seed());
+    const auto brightness = [&](const HeightField& plane, const BumpPixel& pixel) {
+        Draw draw = pixel.draw;
+        draw.normal_map = &map;  // the one map beside heights and colour
+        // albedo (ambient + brightness)
+        return Pixel("search=none,normal=blinn,shading=phong_map", plane)(draw)[0] / 0.5 - 0.25;
+    };
+    double sum = 0, darkest = 1;
+    for (int i = 0; i < 200; ++i) {
+        const Vec2 slopes = {random.real(-0.4, 0.4), random.real(-0.4, 0.4)};
+        const HeightField plane = field_of(16, 16, [&](double u, double v) {
+            return 0.5 + slopes.x * (u - 0.5) + slopes.y * (v - 0.5);
+        });
+        const Vec3 light = direction(random.real(40, 90), random.real(0, 360));
+        const BumpPixel pixel = bump_pixel(plane, slopes, light);
+        const double ours = brightness(plane, pixel);
+        // Two roundings to whole texels, and ours is filtered: up to one and a half of them off.
+        double least = 1, most = 0;
+        for (long dy = -2; dy <= 2; ++dy)
+            for (long dx = -2; dx <= 2; ++dx) {
+                const double C = pointed_to(phong, pixel.P, pixel.B + 256 * dy + dx);
+                least = std::min(least, C);
+                most = std::max(most, C);
+            }
+        EXPECT_GE(ours, least - 1e-5);
+        EXPECT_LE(ours, most + 1e-5);
+        sum += std::abs(ours - pointed_to(phong, pixel.P, pixel.B));
+        darkest = std::min(darkest, ours);
+    }
+    EXPECT_LT(sum / 200, 0.005);
+    EXPECT_LT(darkest, 0.5);
+
+    // Bumps that lean over the map's edge: the pointer comes out on the other side, in the next
+    // row, ours stays on the dark border.
+    const Vec2 away = {-0.9, 0};
+    const HeightField plane =
+        field_of(16, 16, [&](double u, double) { return 0.5 + away.x * (u - 0.5); });
+    const BumpPixel over = bump_pixel(plane, away, direction(6, 180));
+    ASSERT_LT(over.normal.x * over.halfway.x + over.normal.z * over.halfway.z, 0);
+    EXPECT_GT(pointed_to(phong, over.P, over.B), 0.5);
+    EXPECT_EQ(brightness(plane, over), 0);
 }
 
 TEST(Shading, IsFiniteWhateverItIsGiven) {
