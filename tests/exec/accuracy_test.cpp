@@ -71,7 +71,8 @@ TEST(Accuracy, OneLastIntersectionBeatsNone) {
         measure_hits("parallax_occlusion", {{"taps", "32"}}, smooth, {30, 20});
     const measure::HitStatistics steep = measure_hits(
         "steep_parallax", {{"min_steps", "32"}, {"max_steps", "32"}}, smooth, {30, 20});
-    EXPECT_LT(occlusion.p95, steep.p95 * 0.5);
+    // Measured 0.0011 texels against 0.53.
+    EXPECT_LT(occlusion.p95, steep.p95 * 0.02);
 }
 
 TEST(Accuracy, OneTexelSpikesAreMissedAndSaidSo) {

@@ -61,6 +61,13 @@ double mean_error(const Asked& search, const Map& map, double elevation, int ray
     return sum / rays;
 }
 
+double mean_reads(const Asked& search, const Map& map, double elevation, int rays = 300) {
+    unsigned state = 47;
+    long sum = 0;
+    for (int i = 0; i < rays; ++i) sum += search(map, random_ray(state, elevation)).reads;
+    return static_cast<double>(sum) / rays;
+}
+
 // "Real-Time Relief Mapping": a linear loop that stops at the first depth below the ray, and the
 // binary loop of the paper with its own variables.
 double published_relief(const Map& map, const Ray& ray, int linear_steps, int binary_steps) {
@@ -184,13 +191,13 @@ TEST(ReliefSecant, KeepsTheBracketOfItsSource) {
     }
 }
 
+// Measured 2e-6 texels against 0.042, where float rounds to 1e-6.
 TEST(ReliefSecant, TwoReadsBeatTwoHalvings) {
     const Map map = map_named("smooth");
-    const double secant = mean_error(
-        Asked("relief_secant", {{"linear_steps", "15"}, {"secant_steps", "2"}}), map, 45);
-    const double binary =
-        mean_error(Asked("relief", {{"linear_steps", "15"}, {"binary_steps", "2"}}), map, 45);
-    EXPECT_LT(secant, binary * 0.1);
+    const Asked secant("relief_secant", {{"linear_steps", "15"}, {"secant_steps", "2"}});
+    const Asked binary("relief", {{"linear_steps", "15"}, {"binary_steps", "2"}});
+    EXPECT_EQ(mean_reads(secant, map, 45), mean_reads(binary, map, 45));
+    EXPECT_LT(mean_error(secant, map, 45), mean_error(binary, map, 45) * 0.01);
 }
 
 // Riccardi's single loop: on contact one step back, and a shorter step from there.
@@ -233,7 +240,22 @@ TEST(ContactRefinement, ResolvesAsTheProductOfItsStepsWould) {
     EXPECT_GE(agreeing(contact, steep, lowered("smooth"), 45, 1e-3, 200), 199);
 }
 
-// The miss that the steep parallax page warns of: 21 reads each.
+// Measured 0.14 to 0.31 of the error, at 15 to 17 reads of 18 to 22.
+TEST(ContactRefinement, BeatsEqualStepsAtNoMoreReads) {
+    const Asked contact("contact_refinement", {{"coarse_steps", "16"}, {"fine_steps", "16"}});
+    const Asked steep("steep_parallax", {{"min_steps", "40"}, {"max_steps", "40"}});
+    for (const char* maker : {"smooth", "cobbles", "noise"}) {
+        const Map map = lowered(maker);
+        for (double elevation : {60.0, 45.0}) {
+            EXPECT_LE(mean_reads(contact, map, elevation), mean_reads(steep, map, elevation));
+            EXPECT_LT(mean_error(contact, map, elevation), 0.45 * mean_error(steep, map, elevation))
+                << maker << " at " << elevation;
+        }
+    }
+}
+
+// The miss that the steep parallax page warns of, at 20 to 21 reads each.  Measured at 30 degrees
+// 2.2 % and 1.4 % of the rays, at 15 degrees 8.7 % and 5.5 %.
 TEST(Relief, SteepParallaxFindsThinFeaturesThatReliefMisses) {
     const Asked relief("relief", {{"linear_steps", "15"}, {"binary_steps", "6"}});
     const Asked steep("steep_parallax", {{"min_steps", "21"}, {"max_steps", "21"}});
@@ -242,7 +264,7 @@ TEST(Relief, SteepParallaxFindsThinFeaturesThatReliefMisses) {
         const double by_relief = missed(relief, spikes, elevation, 2000),
                      by_steep = missed(steep, spikes, elevation, 2000);
         EXPECT_GT(by_relief, 0.01) << elevation;
-        EXPECT_LT(by_steep, by_relief * 0.9) << elevation;
+        EXPECT_LT(by_steep, by_relief * 0.8) << elevation;
     }
 }
 
