@@ -150,6 +150,20 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
         });
     }
     {
+        auto options = std::make_shared<CostOptions>();
+        CLI::App* command = app.add_subcommand(
+            "cost", "What a variant costs before it is run, each number with its maker");
+        add_variant(*command, options->variant);
+        add_pass(*command, options->variant);
+        command->add_option("--chip", options->chips,
+                            "Also ask the compiler of this chip, which need not be there: "
+                            "polaris10, navi21, ...");
+        command->add_flag("--json", options->json, "For programs");
+        command->callback([&chosen, &catalogue, options] {
+            chosen = [&, options] { return cost(catalogue, *options); };
+        });
+    }
+    {
         auto options = std::make_shared<TableOptions>();
         CLI::App* command = app.add_subcommand(
             "table", "What each Direct3D 9 profile makes of every technique and knob, in Markdown");

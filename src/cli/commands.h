@@ -61,6 +61,13 @@ struct ExplainOptions {
 // Says who spends the slots; of a refused variant too, which is no error here.
 Status explain(const dsl::Catalogue& catalogue, const ExplainOptions& options);
 
+struct CostOptions {
+    VariantOptions variant;
+    std::vector<std::string> chips;  // see vulkan::chips
+    bool json = false;
+};
+Status cost(const dsl::Catalogue& catalogue, const CostOptions& options);
+
 struct TableOptions {
     std::string only;  // part of a technique's title; empty: all
     int threads = 1;

@@ -5,17 +5,24 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
+#include <iterator>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "generator/base/nearest.h"
 #include "src/vulkan/device_state.h"
 
 namespace intaglio::vulkan {
 namespace {
 
 constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
+// In order of their time.  A name that RADV does not know ends the process.
+constexpr std::string_view known_chips[] = {"tahiti", "hawaii", "tonga",  "polaris10", "vega10",
+                                            "raven",  "navi10", "navi14", "navi21",    "vangogh"};
 constexpr const char* no_device_hint =
     "hint: install a Vulkan driver, such as lavapipe from Debian's mesa-vulkan-drivers";
 
@@ -197,6 +204,42 @@ Result<VkPhysicalDevice> choose(const std::vector<VkPhysicalDevice>& devices,
     return chosen ? chosen : devices.front();
 }
 
+// RADV offers the chip that this variable names, in place of what is there, when devices are
+// listed.
+class ForcedFamily {
+  public:
+    explicit ForcedFamily(const std::string& chip) : forced_(!chip.empty()) {
+        if (!forced_) return;
+        if (const char* before = std::getenv(variable)) before_ = before;
+        setenv(variable, chip.c_str(), 1);
+    }
+    ForcedFamily(const ForcedFamily&) = delete;
+    ForcedFamily& operator=(const ForcedFamily&) = delete;
+    ~ForcedFamily() {
+        if (!forced_) return;
+        if (before_)
+            setenv(variable, before_->c_str(), 1);
+        else
+            unsetenv(variable);
+    }
+
+  private:
+    static constexpr const char* variable = "RADV_FORCE_FAMILY";
+    bool forced_;
+    std::optional<std::string> before_;
+};
+
+Result<VkPhysicalDevice> choose_chip(const std::vector<VkPhysicalDevice>& devices,
+                                     const std::string& chip) {
+    for (VkPhysicalDevice device : devices)
+        if (name_contains(device, "radv")) return device;
+    Diagnostic error =
+        input_error("unknown-chip", fmt::format("no driver here compiles for {}; there is: {}",
+                                                chip, fmt::join(names_of(devices), ", ")));
+    error.notes.emplace_back("hint: install Mesa's RADV (Debian's mesa-vulkan-drivers)");
+    return error;
+}
+
 std::string driver_of(VkPhysicalDevice physical, const VkPhysicalDeviceProperties& properties) {
     if (properties.apiVersion < VK_API_VERSION_1_2)
         return fmt::format("driver version {:#x}", properties.driverVersion);
@@ -225,7 +268,21 @@ Failure choose_queue_family(DeviceState& state) {
         fmt::format("the Vulkan device {} cannot draw", state.properties.deviceName));
 }
 
-Failure open_device(DeviceState& state) {
+bool has_extension(VkPhysicalDevice device, const char* name) {
+    std::uint32_t count = 0;
+    if (vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr) != VK_SUCCESS)
+        return false;
+    std::vector<VkExtensionProperties> extensions(count);
+    if (vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()) !=
+        VK_SUCCESS)
+        return false;
+    return std::any_of(extensions.begin(), extensions.end(), [&](const auto& extension) {
+        return std::strcmp(extension.extensionName, name) == 0;
+    });
+}
+
+// `only_compiles`: a chip that is not there, which has no fences and takes no commands.
+Failure open_device(DeviceState& state, bool only_compiles) {
     const float priority = 1;
     VkDeviceQueueCreateInfo queue{};
     queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
@@ -241,10 +298,21 @@ Failure open_device(DeviceState& state) {
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
     info.pEnabledFeatures = &wanted;
+    const char* const executables = VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME;
+    VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR tell{};
+    tell.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR;
+    tell.pipelineExecutableInfo = VK_TRUE;
+    state.tells_statistics = only_compiles && has_extension(state.physical, executables);
+    if (state.tells_statistics) {
+        info.pNext = &tell;
+        info.enabledExtensionCount = 1;
+        info.ppEnabledExtensionNames = &executables;
+    }
     if (auto failure = check(vkCreateDevice(state.physical, &info, nullptr, &state.device),
                              "open the Vulkan device")) {
         return failure;
     }
+    if (only_compiles) return {};
     vkGetDeviceQueue(state.device, state.queue_family, 0, &state.queue);
 
     VkCommandPoolCreateInfo pool{};
@@ -298,13 +366,20 @@ DeviceState::~DeviceState() {
     vkDestroyDevice(device, nullptr);
 }
 
+std::span<const std::string_view> chips() { return known_chips; }
+
 Result<Device> Device::create(const DeviceOptions& options) {
+    const std::vector<std::string> known(std::begin(known_chips), std::end(known_chips));
+    if (!options.chip.empty() && std::find(known.begin(), known.end(), options.chip) == known.end())
+        return input_error("unknown-chip", unknown_name_sentence("chip", options.chip, known));
+    const ForcedFamily forced(options.chip);
     auto instance = make_instance(options.validation);
     if (!instance) return instance.error();
     auto devices = physical_devices((*instance)->instance);
     if (!devices) return devices.error();
     keep_loaded(options.validation);
-    auto chosen = choose(*devices, options.device);
+    auto chosen = options.chip.empty() ? choose(*devices, options.device)
+                                       : choose_chip(*devices, options.chip);
     if (!chosen) return chosen.error();
 
     auto state = std::make_shared<DeviceState>();
@@ -318,7 +393,7 @@ Result<Device> Device::create(const DeviceOptions& options) {
     }
     state->driver = driver_of(*chosen, state->properties);
     if (auto failure = choose_queue_family(*state)) return *failure;
-    if (auto failure = open_device(*state)) return *failure;
+    if (auto failure = open_device(*state, !options.chip.empty())) return *failure;
     return Device(std::move(state));
 }
 

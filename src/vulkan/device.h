@@ -5,7 +5,9 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "generator/base/result.h"
@@ -15,19 +17,26 @@ namespace intaglio::vulkan {
 struct DeviceOptions {
     // Part of the device's name, in any case.  Empty: llvmpipe, else any CPU device, else the first
     // device.
-    std::string device;
+    std::string device = {};
     // Turns on VK_LAYER_KHRONOS_validation with synchronization validation; see
     // Device::validation_messages.
     bool validation = false;
+    // A chip of AMD's that need not be there, one of chips(), for the compiler of Mesa's RADV.  The
+    // device compiles (compiled.h) and cannot draw.  It is asked for in the process's environment,
+    // so no other thread may read that meanwhile.
+    std::string chip = {};
 };
+
+// What DeviceOptions::chip may be: from Southern Islands (tahiti, 2012) to RDNA 2 (vangogh, 2022).
+std::span<const std::string_view> chips();
 
 struct DeviceState;  // the Vulkan objects; device_state.h
 
 class Device {
   public:
     // Errors: `no-vulkan-device` (no loader, driver or device), `unknown-device` (lists those there
-    // are), `no-validation-layer`, and those of any Vulkan call: `out-of-memory`, `device-lost`,
-    // `vulkan-error`.
+    // are), `unknown-chip`, `no-validation-layer`, and those of any Vulkan call: `out-of-memory`,
+    // `device-lost`, `vulkan-error`.
     static Result<Device> create(const DeviceOptions& options = {});
     // Names of all devices that the installed drivers offer, in the loader's order.  Errors as for
     // create.

@@ -47,6 +47,7 @@ struct DeviceState {
     bool independent_blend = false;  // may targets differ in the components that are written?
     std::uint32_t queue_family = 0;
     std::uint32_t timestamp_bits = 0;  // 0: no timestamps on the queue
+    bool tells_statistics = false;     // VK_KHR_pipeline_executable_properties is on
     VkDevice device = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;
     VkCommandPool pool = VK_NULL_HANDLE;

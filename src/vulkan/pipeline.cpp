@@ -27,26 +27,6 @@ Failure make_block(UniformBlock& into, const DeviceState& device, const Draw& dr
     return {};
 }
 
-Failure make_set_layouts(Resources& into, const DeviceState& device, const Bindings& bindings) {
-    std::vector<std::vector<VkDescriptorSetLayoutBinding>> sets;
-    for (const Binding& binding : bindings.descriptors) {
-        if (sets.size() <= binding.set) sets.resize(binding.set + 1);
-        sets[binding.set].push_back({binding.binding, binding.type, 1, binding.stages, nullptr});
-    }
-    for (const auto& set : sets) {
-        VkDescriptorSetLayoutCreateInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-        info.bindingCount = static_cast<std::uint32_t>(set.size());
-        info.pBindings = set.data();
-        into.set_layouts.emplace_back();
-        if (auto failure = make(into.set_layouts.back(), device.device, vkCreateDescriptorSetLayout,
-                                info, "create a descriptor layout")) {
-            return failure;
-        }
-    }
-    return {};
-}
-
 std::vector<VkDescriptorSetLayout> raw_layouts(const Resources& resources) {
     std::vector<VkDescriptorSetLayout> raw;
     for (const OwnedSetLayout& layout : resources.set_layouts) raw.push_back(layout.get());
@@ -178,6 +158,26 @@ VkResult create_one_pipeline(VkDevice device, const VkGraphicsPipelineCreateInfo
 
 }  // namespace
 
+Failure make_set_layouts(Resources& into, const DeviceState& device, const Bindings& bindings) {
+    std::vector<std::vector<VkDescriptorSetLayoutBinding>> sets;
+    for (const Binding& binding : bindings.descriptors) {
+        if (sets.size() <= binding.set) sets.resize(binding.set + 1);
+        sets[binding.set].push_back({binding.binding, binding.type, 1, binding.stages, nullptr});
+    }
+    for (const auto& set : sets) {
+        VkDescriptorSetLayoutCreateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+        info.bindingCount = static_cast<std::uint32_t>(set.size());
+        info.pBindings = set.data();
+        into.set_layouts.emplace_back();
+        if (auto failure = make(into.set_layouts.back(), device.device, vkCreateDescriptorSetLayout,
+                                info, "create a descriptor layout")) {
+            return failure;
+        }
+    }
+    return {};
+}
+
 Failure make_resources(Resources& into, const DeviceState& device, const Draw& draw,
                        const Bindings& bindings) {
     if (auto failure = make_set_layouts(into, device, bindings)) return failure;
@@ -239,6 +239,7 @@ Failure make_pipeline(Pipeline& into, const DeviceState& device, const Draw& dra
     const FixedState fixed(draw);
     VkGraphicsPipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
+    if (device.tells_statistics) info.flags = VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR;
     info.stageCount = 2;
     info.pStages = stages;
     info.pVertexInputState = &input;

@@ -27,6 +27,10 @@ struct Targets {
 Failure make_targets(Targets& into, const DeviceState& device, const Draw& draw,
                      std::size_t colour_count);
 
+// The render pass alone, as make_targets makes it: all that a pipeline wants to know of targets.
+Failure make_pass(Targets& into, const DeviceState& device, const Draw& draw,
+                  std::size_t colour_count);
+
 // The picture that the last copy into `readback` left.
 Picture read_picture(const Targets& targets, std::size_t target);
 
@@ -44,6 +48,8 @@ struct Resources {
     OwnedDescriptorPool pool;
     std::vector<VkDescriptorSet> sets;  // freed with the pool
 };
+// The layouts of the sets alone: all that a pipeline wants to know of resources.
+Failure make_set_layouts(Resources& into, const DeviceState& device, const Bindings& bindings);
 Failure make_resources(Resources& into, const DeviceState& device, const Draw& draw,
                        const Bindings& bindings);
 
@@ -51,6 +57,7 @@ struct Pipeline {
     OwnedPipelineLayout layout;
     OwnedPipeline pipeline;
 };
+// Compiles.  Where the device tells statistics, they are kept with the pipeline.
 Failure make_pipeline(Pipeline& into, const DeviceState& device, const Draw& draw,
                       const Bindings& bindings, const Resources& resources, const Targets& targets);
 

@@ -57,8 +57,12 @@ VkAttachmentDescription attachment(VkFormat format, VkAttachmentStoreOp store,
     return description;
 }
 
-Failure make_pass(OwnedRenderPass& into, const DeviceState& device, VkFormat colour_format,
-                  std::size_t colour_count, bool depth) {
+}  // namespace
+
+Failure make_pass(Targets& into, const DeviceState& device, const Draw& draw,
+                  std::size_t colour_count) {
+    const VkFormat colour_format = format_of(draw.target_format);
+    const bool depth = draw.depth_test;
     std::vector<VkAttachmentDescription> attachments(
         colour_count, attachment(colour_format, VK_ATTACHMENT_STORE_OP_STORE,
                                  VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL));
@@ -103,10 +107,8 @@ Failure make_pass(OwnedRenderPass& into, const DeviceState& device, VkFormat col
     info.pSubpasses = &subpass;
     info.dependencyCount = 2;
     info.pDependencies = dependencies;
-    return make(into, device.device, vkCreateRenderPass, info, "create a render pass");
+    return make(into.pass, device.device, vkCreateRenderPass, info, "create a render pass");
 }
-
-}  // namespace
 
 Failure make_targets(Targets& into, const DeviceState& device, const Draw& draw,
                      std::size_t colour_count) {
@@ -140,8 +142,7 @@ Failure make_targets(Targets& into, const DeviceState& device, const Draw& draw,
         }
         views.push_back(into.depth.view.get());
     }
-    if (auto failure = make_pass(into.pass, device, colour_format, colour_count, draw.depth_test))
-        return failure;
+    if (auto failure = make_pass(into, device, draw, colour_count)) return failure;
     VkFramebufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
     info.renderPass = into.pass.get();

@@ -176,8 +176,8 @@ TEST_F(CommandLine, RefusesWhatAProfileHasNot) {
 }
 
 TEST_F(CommandLine, EmitsDrawsAndMeasuresPasses) {
-    const std::vector<std::string> surface = {"parallax_occlusion", "-T",      "ps_2_0", "-D",
-                                              "taps=4",             "--split", "shading"};
+    const std::vector<std::string> surface = {
+        "parallax_occlusion", "-T", "ps_2_0", "-D", "taps=4", "--split", "shading"};
     const auto with = [&](std::vector<std::string> start, const std::vector<std::string>& end) {
         start.insert(start.end(), surface.begin(), surface.end());
         start.insert(start.end(), end.begin(), end.end());
@@ -205,9 +205,20 @@ TEST_F(CommandLine, EmitsDrawsAndMeasuresPasses) {
     small.insert(small.end(), map.begin(), map.end());
     const Outcome table = with({"split"}, small);
     EXPECT_EQ(table.code, 0) << table.err;
-    for (const char* part : {"pass 1, search, shadow: ", "pass 2, shading and output: ",
-                             "ps_2_0: ", "RGBA8 ", "RGBA16F ", "RGBA32F "})
+    for (const char* part : {"pass 1, search, shadow: ", "pass 2, shading and output: ", "ps_2_0: ",
+                             "RGBA8 ", "RGBA16F ", "RGBA32F "})
         EXPECT_THAT(table.out, HasSubstr(part));
+}
+
+TEST_F(CommandLine, CostNamesTheMakerOfEachNumber) {
+    const Outcome text = run({"cost", "fur", "-T", "glsl_450", "--chip", "polaris10"});
+    EXPECT_EQ(text.code, 0) << text.err;
+    EXPECT_THAT(text.out, HasSubstr("pixel stage: SPIR-V after SPIRV-Tools' optimiser\n"));
+    EXPECT_THAT(text.out, HasSubstr("pixel stage: polaris10, compiled by radv Mesa "));
+    EXPECT_THAT(run({"cost", "emboss", "-T", "ps_2_b", "--json"}).out,
+                HasSubstr("\"pixel_slots\""));
+    EXPECT_THAT(run({"cost", "fur", "-T", "essl_100"}).out, HasSubstr("no witness counts"));
+    expect_refused({"cost", "fur", "-T", "glsl_450", "--chip", "polaris1"}, "unknown-chip");
 }
 
 TEST_F(CommandLine, ExplainsWhoSpendsTheSlots) {
@@ -402,8 +413,8 @@ TEST_F(CommandLine, BakesEveryKindOfMap) {
     const auto normals = intaglio::maps::read_png(path("normal.png"));
     ASSERT_TRUE(normals.ok());
     EXPECT_EQ(normals->channels, 4);
-    for (const char* kind : {"cone", "relaxed-cone", "max-mip", "horizon", "distance",
-                             "view-dependent"})
+    for (const char* kind :
+         {"cone", "relaxed-cone", "max-mip", "horizon", "distance", "view-dependent"})
         EXPECT_EQ(run({"bake", kind, path("height.png"), "-o", path("baked.png")}).code, 0) << kind;
     EXPECT_EQ(run({"bake", "phong", "--size", "64x64", "-o", path("phong.png")}).code, 0);
     expect_refused({"bake", "horizon", path("height.png"), "-o", path("h.png"), "--azimuths", "7"},
