@@ -8,42 +8,69 @@
 namespace intaglio {
 namespace {
 
+Status hinted(Diagnostic error, std::string hint) {
+    error.notes.push_back("hint: " + std::move(hint));
+    return error;
+}
+
+// The targets of the same family, "essl_100" and "essl_300", that can.
+std::string those_that_can(const Target& target, bool Capabilities::*ability) {
+    const std::string_view family = target.name.substr(0, target.name.find('_') + 1);
+    std::string names;
+    for (const Target* other : all_targets())
+        if (other->name.starts_with(family) && other->capabilities.*ability)
+            names += (names.empty() ? "" : ", ") + std::string(other->name);
+    return names;
+}
+
 // `reads`: how many texture reads were seen so far.
 Status check_region(const ir::Module& module, const Target& target, const ir::Region& region,
                     int& reads) {
     const Capabilities& can = target.capabilities;
     for (const ir::Instruction& instruction : region.body) {
-        const auto refuse = [&](std::string_view what) {
-            return target_limit(module, instruction.origin,
-                                fmt::format("{} has no {}", target.name, what));
+        const auto limit = [&](std::string sentence) {
+            return target_limit(module, instruction.origin, std::move(sentence));
         };
-        if (instruction.op == ir::Op::Loop && !can.loops) return refuse("loops");
+        const auto refuse = [&](std::string_view what, bool Capabilities::*ability,
+                                std::string_view instead = "") -> Status {
+            Diagnostic error = limit(fmt::format("{} has no {}", target.name, what));
+            const std::string others = those_that_can(target, ability);
+            if (!instead.empty()) error.notes.push_back(fmt::format("hint: {}", instead));
+            if (!others.empty()) error.notes.push_back(fmt::format("hint: {} can", others));
+            return error;
+        };
+        if (instruction.op == ir::Op::Loop && !can.loops)
+            return refuse("loops", &Capabilities::loops);
         if (instruction.op == ir::Op::Loop && can.loop_trips > 0 &&
             instruction.loop.trip_count > can.loop_trips)
-            return target_limit(
-                module, instruction.origin,
-                fmt::format("the loop {} runs up to {} times; {} can repeat one {} times",
-                            instruction.loop.name, instruction.loop.trip_count, target.name,
-                            can.loop_trips));
-        if (instruction.op == ir::Op::If && !can.branches) return refuse("branches");
+            return hinted(limit(fmt::format("the loop {} runs up to {} times; {} can repeat one {} "
+                                            "times",
+                                            instruction.loop.name, instruction.loop.trip_count,
+                                            target.name, can.loop_trips)),
+                          fmt::format("lower the knob that counts its iterations by {}",
+                                      instruction.loop.trip_count - can.loop_trips));
+        if (instruction.op == ir::Op::If && !can.branches)
+            return refuse("branches", &Capabilities::branches);
         if ((instruction.op == ir::Op::Ddx || instruction.op == ir::Op::Ddy) && !can.derivatives)
-            return refuse("screen-space derivatives");
+            return refuse("screen-space derivatives", &Capabilities::derivatives);
         if (ir::is_sample(instruction.op) && module.stage == ir::Stage::Vertex &&
             !can.vertex_textures)
-            return refuse("texture reads in the vertex stage");
+            return refuse("texture reads in the vertex stage", &Capabilities::vertex_textures);
         if (instruction.op == ir::Op::SampleLevel && !can.texture_levels)
-            return refuse("texture reads with a given level other than 0");
+            return refuse("texture reads with a given level other than 0",
+                          &Capabilities::texture_levels,
+                          "level=0 and nyquist=0, where they are what gives it");
         if (instruction.op == ir::Op::SampleGrad && !can.texture_gradients)
-            return refuse("texture reads with given gradients");
+            return refuse("texture reads with given gradients", &Capabilities::texture_gradients);
         if (ir::is_sample(instruction.op) && !can.volume_textures &&
             module.samplers[static_cast<std::size_t>(instruction.slot)].dimension == 3)
-            return refuse("volume textures");
+            return refuse("volume textures", &Capabilities::volume_textures);
         if (ir::is_sample(instruction.op) && ++reads > can.texture_reads && can.texture_reads > 0)
-            return target_limit(
-                module, instruction.origin,
-                fmt::format("{} reads textures more than {} times{}, and {} allows no more",
-                            module.name, can.texture_reads,
-                            can.loops ? "" : " once its loops are unrolled", target.name));
+            return hinted(
+                limit(fmt::format("{} reads textures more than {} times{}, and {} allows no more",
+                                  module.name, can.texture_reads,
+                                  can.loops ? "" : " once its loops are unrolled", target.name)),
+                "try fewer taps or steps");
         for (const ir::Region& inner : instruction.regions)
             if (Status status = check_region(module, target, inner, reads); !status) return status;
     }

@@ -71,7 +71,9 @@ TEST(ShaderModel2, RefusesWhatTheProfilesCannotSay) {
     EXPECT_EQ(
         refusal(reading("1.5"), "hlsl_2_0"),
         "templates/search/mine.cpp:7: error: hlsl_2_0 has no texture reads with a given level "
-        "other than 0 [target-limit]");
+        "other than 0 [target-limit]\n"
+        "  hint: level=0 and nyquist=0, where they are what gives it\n"
+        "  hint: hlsl_5_0, hlsl_3_0 can");
 
     constexpr std::string_view march = R"(
 pixel "p"
@@ -96,7 +98,8 @@ sampler map 2d
     };
     EXPECT_EQ(refusal(program(33), "hlsl_2_0"),
               "error: p reads textures more than 32 times once its loops are unrolled, and "
-              "hlsl_2_0 allows no more [target-limit]");
+              "hlsl_2_0 allows no more [target-limit]\n"
+              "  hint: try fewer taps or steps");
     EXPECT_TRUE(emit(program(32), *find_target("hlsl_2_0")).ok());
     EXPECT_TRUE(emit(program(33), *find_target("hlsl_2_b")).ok());
 }
