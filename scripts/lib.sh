@@ -20,6 +20,8 @@ intaglio_packages=(
     # libraries
     libfmt-dev nlohmann-json3-dev libcli11-dev libtomlplusplus-dev libspng-dev libpng-dev zlib1g-dev
     libgtest-dev libgmock-dev
+    # plots of the report
+    libjs-chart.js
 )
 # What only the tests use: a browser for the report's live part, 122 MB to fetch and 409 MB installed.
 # shellcheck disable=SC2034

@@ -75,6 +75,36 @@ int report(const Status& status) {
     return status.error().fault == Fault::Internal ? exit_own_failure : exit_bad_input;
 }
 
+void add_report(CLI::App& app, const dsl::Catalogue& catalogue, std::function<Status()>& chosen) {
+    auto options = std::make_shared<ReportOptions>();
+    CLI::App* command = app.add_subcommand(
+        "report", "The results in a folder as one page with plots, pictures and shaders");
+    command
+        ->add_option("folder", options->folder,
+                     "Folder with results, of `intaglio sweep` or `intaglio measure`")
+        ->required();
+    command->add_option("-o,--output", options->output, "HTML file; - is stdout");
+    command->add_option(
+        "--markdown", options->markdown,
+        "A document with marks, whose part between them is made anew: Pareto fronts "
+        "by class of map and elevation (plots by gnuplot)");
+    command
+        ->add_option("--maps", options->maps,
+                     "Folder that map files in the results are relative to: the sweep file's")
+        ->capture_default_str();
+    command->add_option("--chip", options->chips,
+                        "Also what this chip's compiler makes of each variant: polaris10, navi21 "
+                        "(repeatable; Mesa's RADV, without the chip)");
+    command->add_flag("!--no-pictures", options->pictures,
+                      "Without the gallery, which draws every technique on every map");
+    command->add_option("--picture-size", options->picture_size, "Of the gallery, pixels a side")
+        ->capture_default_str()
+        ->check(CLI::IsMember({64, 128, 192, 256, 512}));
+    command->callback([&chosen, &catalogue, options] {
+        chosen = [&, options] { return make_report(catalogue, *options); };
+    });
+}
+
 // The commands with their options; `chosen` is set to the work of the one that was named.
 void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<Status()>& chosen) {
     {
@@ -265,8 +295,7 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
             ->required();
         command->add_option("--height", options->height,
                             "A height map in place of the scene's maps");
-        command
-            ->add_option("--size", options->size, "Pixels a side in place of the scene's")
+        command->add_option("--size", options->size, "Pixels a side in place of the scene's")
             ->check(CLI::IsMember({8, 16, 32, 64, 128, 256, 512, 1024, 2048}));
         command->add_option("--device", options->device,
                             "Part of a Vulkan device's name; the scene's, or lavapipe");
@@ -275,6 +304,7 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
             chosen = [&, options] { return measure_scene(catalogue, *options); };
         });
     }
+    add_report(app, catalogue, chosen);
     add_bake(app, chosen);
 }
 

@@ -134,6 +134,19 @@ struct MeasureOptions {
 };
 Status measure_scene(const dsl::Catalogue& catalogue, const MeasureOptions& options);
 
+struct ReportOptions {
+    std::string folder;      // with results
+    std::string output;      // a page; empty: none
+    std::string markdown;    // a document whose made part is written anew; empty: none
+    std::string maps = ".";  // folder that the map files of the data are relative to
+    // Whose compilers are asked what the variants cost.
+    std::vector<std::string> chips;
+    bool pictures = true;    // drawn anew, which takes a device and the maps
+    int picture_size = 192;  // pixels a side
+};
+// The results of a folder as one page that works offline.
+Status make_report(const dsl::Catalogue& catalogue, const ReportOptions& options);
+
 // Writes a product to stdout ("-") or whole to a file.
 Status write_product(const std::string& output, std::string_view bytes, bool binary);
 
