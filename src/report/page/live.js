@@ -10,7 +10,7 @@ const find = selector => root.querySelector(selector);
 const stage = find(".live-stage"), canvas = find(".live-canvas");
 const panes = ["technique", "exact", "difference"].map(name => find(`[data-pane="${name}"]`));
 
-const view = {elevation: 35, azimuth: 250, zoom: 0.75};
+const view = {elevation: 35, azimuth: 250, zoom: 1};
 const techniques = data.techniques.filter(t => !t.absent), absent = data.techniques.filter(t => t.absent);
 const first = techniques.find(t => t.name === "parallax_occlusion") || techniques[0];
 const state = {technique: first.name, steps: first.initial, shadow: data.shadows[0].name, map: data.maps[0].name,
@@ -36,13 +36,14 @@ function say(sentence) {
 
 // Drawing ----------------------------------------------------------------------------------------
 
-// The pictures of a state, or one of them; false while a program is being compiled.
+// Draws the pictures of a state, or one of them, into the renderer's pictures from `first` on; false while a program is
+// being compiled.
 const pictures = ["technique", "exact"];
-async function draw_pictures(s, size, samples, which = pictures) {
+async function draw_pictures(s, size, samples, which = pictures, first = 0) {
   const textures = await renderer.map(s.map), keys = [key_of(s), reference_of(s)];
   const indices = which.map(name => pictures.indexOf(name));
   if (!indices.map(index => renderer.compiled(keys[index])).every(Boolean)) return false;
-  for (const index of indices) renderer.draw(index, keys[index], s, textures, size, samples);
+  for (const index of indices) renderer.draw(first + index, keys[index], s, textures, size, samples);
   return true;
 }
 
@@ -78,19 +79,21 @@ async function frame() {
   running = true;
   const serial = wanted, s = {...state}, moving = performance.now() < settle;
   try {
-    const rectangles = lay_out();
-    // As many pixels as there is time for: while the view moves, and when it rests.
-    const affordable = Math.sqrt((moving ? 0.035 : 2) / pace), began = performance.now();
-    const full = clamp(rectangles[0][2], 32, 1024), size = Math.round(clamp(affordable, 32, full));
+    const rectangles = lay_out(), full = clamp(rectangles[0][2], 32, 1024);
+    // Drivers compile at a program's first draw, and its second one tells its pace: both are small and not shown.
+    // Then come as many pixels as there is time for: while the view moves, and when it rests.
+    const draws = renderer.draws([key_of(s), reference_of(s)]);
+    const affordable = Math.sqrt((moving ? 0.035 : 2) / pace);
+    const size = draws < 2 ? Math.min(48, full) : Math.round(clamp(affordable, 32, full)), began = performance.now();
     if (await draw_pictures(s, size, 4)) {
-      renderer.clear();
-      rectangles.forEach((box, i) => renderer.show(box, i % 2, i === 2 ? s.amplify : 0));
-      // Reading a pixel waits for the device, which tells what a picture takes it.
+      // Reading a pixel waits for the device.
       renderer.pixels(0, 1);
-      const took = (performance.now() - began) / 1000;
-      pace = took / size ** 2;
-      // A first picture also takes the time to compile: there is time for a sharper one.
-      if (!moving && (size === full || took > 1)) {
+      if (draws > 0) pace = (performance.now() - began) / 1000 / size ** 2;
+      if (draws > 1) {
+        renderer.clear();
+        rectangles.forEach((box, i) => renderer.show(box, i % 2, i === 2 ? s.amplify : 0));
+      }
+      if (draws > 1 && !moving) {
         describe(difference_of(renderer.pixels(0), renderer.pixels(1)), size, full);
         drawn = serial;
         stage.removeAttribute("aria-busy");
@@ -156,7 +159,7 @@ function element(name, properties = {}, ...children) {
 
 function fill_choice(name) {
   const box = find(`[data-choice="${name}"] .live-choice`), options = choices[name]();
-  box.className = options.length ? "live-choice" : "live-none";
+  box.classList.toggle("live-none", !options.length);
   box.replaceChildren(...options.map(([value, text]) => {
     const input = element("input", {type: "radio", name, value});
     input.addEventListener("change", () => change({[name]: value}));
@@ -183,13 +186,14 @@ function show_state() {
     find(`input[name="${name}"]`).value = state[name];
     find(`output[name="${name}Text"]`).textContent = text(state[name]);
   }
-  const knob = chosen.knob ? `, ${chosen.knob} = ${state.steps}` : "";
-  const shadow = state.shadow === "none" ? "" : ` + shadow ${state.shadow}`;
+  const knob = chosen.knob ? ` · ${chosen.knob} = ${state.steps}` : "";
+  const shadow = state.shadow === "none" ? "" : ` · shadow ${state.shadow}`;
   find('[data-text="technique"]').textContent = state.technique + knob + shadow;
-  find('[data-text="exact"]').textContent = state.shadow === "none" ? "exact" : "exact + exact shadow";
+  find('[data-text="exact"]').textContent = state.shadow === "none" ? "exact" : "exact · shadow exact";
+  find('[data-text="difference"]').textContent = state.amplify === 1 ? "difference" : `difference × ${state.amplify}`;
   for (const tick of root.querySelectorAll("[data-tick]")) {
-    const most = 255 / state.amplify, at = tick.dataset.tick * most;
-    tick.textContent = (tick.dataset.tick === "1" && state.amplify > 1 ? "≥ " : "") + Math.round(at);
+    const last = tick.dataset.tick === "1", at = Math.round(tick.dataset.tick * 255 / state.amplify);
+    tick.textContent = last && at < 255 ? `≥ ${at} of 255` : at;
   }
   find('[data-text="command"]').textContent = commands().join("\n");
   if (find(".live-source").open) show_source();
@@ -318,17 +322,11 @@ Object.assign(window.intaglio, {
     await settled();
     return {size: renderer.targets[0].size, technique: base64(renderer.pixels(0)), exact: base64(renderer.pixels(1))};
   },
-  // The pictures of the state with these changes; the page shows its own state again.
-  async draw(changes, size, samples = 1, which = ["technique", "exact"]) {
-    await settled();
-    running = true;
-    try {
-      while (!await draw_pictures({...state, ...changes}, size, samples, which)) await new Promise(requestAnimationFrame);
-      return Object.fromEntries(which.map(name => [name, base64(renderer.pixels(pictures.indexOf(name)))]));
-    } finally {
-      running = false;
-      change({});
-    }
+  // The pictures of the state with these changes, beside those on the page.
+  async draw(changes, size, samples = 1, which = pictures) {
+    const first = pictures.length, s = {...state, ...changes};
+    while (!await draw_pictures(s, size, samples, which, first)) await new Promise(requestAnimationFrame);
+    return Object.fromEntries(which.map(name => [name, base64(renderer.pixels(first + pictures.indexOf(name)))]));
   },
 });
 

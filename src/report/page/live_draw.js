@@ -122,7 +122,7 @@ class Renderer {
       return shader;
     });
     gl.linkProgram(program);
-    return {program, shaders, uniforms: null};
+    return {program, shaders, uniforms: null, draws: 0};
   }
 
   text(key, stage) {
@@ -138,6 +138,11 @@ class Renderer {
   compiled(key) {
     const {program} = this.program(key);
     return !this.parallel || this.gl.getProgramParameter(program, this.parallel.COMPLETION_STATUS_KHR);
+  }
+
+  // How often all of these were drawn.
+  draws(keys) {
+    return Math.min(...keys.map(key => this.program(key).draws));
   }
 
   use(linked) {
@@ -286,6 +291,7 @@ class Renderer {
               scale: [state.depth], map_size: [map.width, map.height]}, textures);
     gl.bindVertexArray(mesh.array);
     gl.drawElements(gl.TRIANGLES, mesh.count, gl.UNSIGNED_INT, 0);
+    ++this.program(key).draws;
     gl.disable(gl.DEPTH_TEST);
     gl.disable(gl.CULL_FACE);
     if (target.drawn === target.read) return;
