@@ -1,7 +1,7 @@
 // Everything that the command line can emit for Direct3D 9, before Direct3D's own tools: each
-// technique with each knob at its default and both ends.  What our own rules accept, its validator
-// accepts; its assembler makes our bytes of our text, and of its own disassembly of our bytes. HLSL
-// of the old models goes through its compiler.
+// technique with each knob at its default on every profile, and at both ends on one of them.  What
+// our own rules accept, its validator accepts; its assembler makes our bytes of our text, and of
+// its own disassembly of our bytes. HLSL of the old models goes through its compiler.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -32,13 +32,21 @@ struct Wanted {
 };
 
 // The variants of all settings that `is_wanted`, made on all cores.
+// Defaults on every target, each end of a knob on one of them in turn: another value of
+// a knob is the same instructions, a constant or their count apart.
 template <typename Filter>
 std::vector<Wanted> variants_of(const std::vector<std::string>& targets, const Filter& is_wanted) {
     const dsl::Catalogue catalogue = templates::all_techniques();
     std::vector<Wanted> all;
-    for (const Setting& setting : all_settings(catalogue))
+    std::size_t turn = 0;
+    for (const Setting& setting : all_settings(catalogue)) {
+        const bool by_default = setting.knob.first.empty();
+        const std::string& its_own = targets[turn % targets.size()];
         for (const std::string& target : targets)
-            if (is_wanted(setting, target)) all.push_back({setting, target});
+            if ((by_default || target == its_own) && is_wanted(setting, target))
+                all.push_back({setting, target});
+        turn += !by_default;
+    }
     std::atomic<std::size_t> next = 0;
     std::vector<std::jthread> threads;
     for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
