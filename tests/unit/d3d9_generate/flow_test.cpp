@@ -115,11 +115,7 @@ ir::Program summing(int trips, ir::LoopForm form) {
     const ir::ValueId read = builder.sample(ir::Op::SampleLevel, 0, {place, zero});
     const std::array next = {builder.emit(ir::Op::Add, {scope.carried[0], read})};
     builder.finish(builder.end_loop(next));
-    program.vertex.stage = ir::Stage::Vertex;
-    program.vertex.outputs.push_back({"at", ir::float2, ir::Semantic::Interpolant});
-    ir::Builder vertex(program.vertex);
-    const std::array corner = {vertex.swizzle(vertex.constant(0.5f), "xx")};
-    vertex.finish(corner);
+    add_vertex(program);
     return program;
 }
 

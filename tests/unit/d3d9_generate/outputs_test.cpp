@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "generator/ir/builder.h"
-#include "generator/ir/parse.h"
 #include "generator/target/d3d9/assembly.h"
 #include "generator/target/d3d9/bytecode.h"
 #include "generator/target/d3d9/interpret.h"
@@ -58,8 +56,8 @@ TEST_P(Outputs, AreWhatTheProgramSays) {
         ASSERT_TRUE(decoded) << decoded.error().message;
         EXPECT_EQ(encode(*decoded), encode(*shader));
     }
-    // A search or a shadow, shading, depth and the tile's edge at once are too much for 64 slots, and
-    // one of them reads deeper than four.
+    // A search or a shadow, shading, depth and the tile's edge at once are too much for 64 slots,
+    // and one of them reads deeper than four.
     const int too_much[] = {3, 0, 1, 0};
     EXPECT_EQ(refused, too_much[static_cast<std::size_t>(GetParam())]);
 }
@@ -99,17 +97,7 @@ ir::Program program_writing(Value depth, Value clip, bool looped) {
         colour = "%14";
     }
     text += fmt::format("return ({}, {}, {}, %12)\n}}\n", ids[clip], colour, ids[depth]);
-    ir::Program program;
-    auto module = ir::parse(text, "outputs");
-    EXPECT_TRUE(module) << text << (module ? "" : to_string(module.error()));
-    if (module) program.pixel = std::move(*module);
-    program.name = "outputs";
-    program.vertex.stage = ir::Stage::Vertex;
-    program.vertex.outputs.push_back({"at", ir::float2, ir::Semantic::Interpolant});
-    ir::Builder vertex(program.vertex);
-    const std::array corner = {vertex.swizzle(vertex.constant(0.5f), "xx")};
-    vertex.finish(corner);
-    return program;
+    return program_of_pixel(text);
 }
 
 TEST_P(Outputs, MayBeAnything) {

@@ -1,7 +1,13 @@
 // The list of surfaces.
 #include "tests/unit/d3d9_generate/surfaces.h"
 
+#include <gtest/gtest.h>
+
+#include <array>
+
 #include "generator/dsl/catalogue.h"
+#include "generator/ir/builder.h"
+#include "generator/ir/parse.h"
 #include "templates/all_techniques.h"
 
 namespace intaglio::d3d9 {
@@ -108,6 +114,24 @@ Result<ir::Program> record(const Case& a_case, Profile profile) {
     dsl::RecordOptions options;
     options.target = name_of(profile);
     return dsl::record_surface(*surface, options);
+}
+
+ir::Program program_of_pixel(std::string_view text) {
+    ir::Program program;
+    auto module = ir::parse(text, "pixel.ir");
+    EXPECT_TRUE(module) << text << (module ? "" : to_string(module.error()));
+    if (module) program.pixel = std::move(*module);
+    program.name = program.pixel.name;
+    add_vertex(program);
+    return program;
+}
+
+void add_vertex(ir::Program& program) {
+    program.vertex.stage = ir::Stage::Vertex;
+    program.vertex.outputs = program.pixel.inputs;
+    ir::Builder vertex(program.vertex);
+    const std::array corner = {vertex.swizzle(vertex.constant(0.5f), "xx")};
+    vertex.finish(corner);
 }
 
 }  // namespace intaglio::d3d9

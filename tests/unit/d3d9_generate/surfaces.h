@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,5 +24,10 @@ std::vector<Profile> pixel_profiles();
 
 // The program as a target of this profile's name records it.
 Result<ir::Program> record(const Case& a_case, Profile profile);
+
+// A program of the pixel module in this text, or a test failure.
+ir::Program program_of_pixel(std::string_view text);
+// Gives it a vertex stage that hands on the pixel stage's one input, a float2.
+void add_vertex(ir::Program& program);
 
 }  // namespace intaglio::d3d9

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generator/ir/builder.h"
-#include "generator/ir/parse.h"
 #include "generator/target/d3d9/assembly.h"
 #include "generator/target/d3d9/bytecode.h"
 #include "generator/target/d3d9/interpret.h"
@@ -125,10 +123,7 @@ class OutputPixels : public LoopPixels, public ::testing::WithParamInterface<Pro
 INSTANTIATE_TEST_SUITE_P(Profiles, OutputPixels, ::testing::ValuesIn(pixel_profiles()),
                          [](const auto& test) { return std::string(name_of(test.param)); });
 
-ir::Program depth_and_clip() {
-    ir::Program program;
-    program.name = "depth_and_clip";
-    auto module = ir::parse(R"(pixel "depth_and_clip"
+constexpr std::string_view depth_and_clip = R"(pixel "depth_and_clip"
 input uv float2 interpolant
 output colour float4 target
 output depth float1 depth
@@ -147,20 +142,10 @@ output inside float1 clip
 %10 float4 = compose %0, %3, %7
 return (%10, %6, %9)
 }
-)",
-                            "depth_and_clip");
-    EXPECT_TRUE(module) << (module ? "" : to_string(module.error()));
-    if (module) program.pixel = std::move(*module);
-    program.vertex.stage = ir::Stage::Vertex;
-    program.vertex.outputs.push_back({"uv", ir::float2, ir::Semantic::Interpolant});
-    ir::Builder vertex(program.vertex);
-    const std::array corner = {vertex.swizzle(vertex.constant(0.5f), "xx")};
-    vertex.finish(corner);
-    return program;
-}
+)";
 
 TEST_P(OutputPixels, AreDroppedAndTestedByDepth) {
-    const auto shader = generate_pixel(depth_and_clip(), GetParam());
+    const auto shader = generate_pixel(program_of_pixel(depth_and_clip), GetParam());
     ASSERT_TRUE(shader) << shader.error().message;
     check::Source vertex;
     vertex.language = check::Language::Glsl330;

@@ -1,5 +1,6 @@
 // A shadow march of 8 steps from the point that a first pass found: point, and whether it is lit.
-// Four differences in one, and the greatest of them; heights lie in [0, 1], so the top of the relief stops nothing.
+// Four differences in one, and the greatest of them, with STOPS of those below the top of the relief;
+// heights lie in [0, 1], so that the top stops nothing.
 sampler2D height_map : register(s0);
 sampler2D first_pass : register(s1);
 float scale;
@@ -18,6 +19,10 @@ float4 main(float2 uv : TEXCOORD0, float3 to_light : TEXCOORD1) : COLOR {
     float h8 = tex2D(height_map, hit.xy + reach * (8 / 8.0)).x;
     float4 g0 = float4(h1, h2, h3, h4) - float4(1.1, 2.1, 3.1, 4.1) / 8;
     float4 g1 = float4(h5, h6, h7, h8) - float4(5.1, 6.1, 7.1, 8.1) / 8;
+#ifdef STOPS
+    g0 = hit.z + float4(0.1, 1.1, 2.1, 3.1) / 8 >= 1 ? -1 : g0;
+    g1 = hit.z + float4(4.1, 5.1, 6.1, 7.1) / 8 >= 1 ? -1 : g1;
+#endif
     float4 four = max(g0, g1);
     float2 two = max(four.xy, four.wz);
     float most = max(two.x, two.y) - hit.z;
