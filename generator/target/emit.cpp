@@ -1,4 +1,6 @@
 // From a recorded program to artifacts: verify, optimise, legalise, print; or verify and generate.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "generator/ir/verify.h"
@@ -38,6 +40,34 @@ Status legalize(ir::Module& module, const Target& target, const EmitOptions& opt
     return Done{};
 }
 
+// Whether any loop ran longer.
+bool shorten_loops(ir::Region& region, int trips) {
+    bool any = false;
+    for (ir::Instruction& instruction : region.body) {
+        if (instruction.op == ir::Op::Loop && instruction.loop.trip_count > trips) {
+            instruction.loop.trip_count = trips;
+            any = true;
+        }
+        for (ir::Region& inner : instruction.regions) any |= shorten_loops(inner, trips);
+    }
+    return any;
+}
+
+// Thousands of iterations take many seconds to unroll, only to be refused for what the first few
+// already ask for: what is over a limit then stays over it with more of them.
+Status refuse_early(const ir::Program& program, const Target& target) {
+    const int most_reads = target.capabilities.texture_reads;
+    if (target.capabilities.loops || most_reads == 0) return Done{};
+    for (int trips : {std::min(64, most_reads + 1), most_reads + 1}) {
+        ir::Program few = program;
+        if (!shorten_loops(few.pixel.body, trips)) return Done{};
+        Result<Notes> notes = passes::optimize_program(few, pipeline_options(target, {}));
+        if (!notes) return notes.error();
+        if (Status status = legalize(few.pixel, target, {}, *notes); !status) return status;
+    }
+    return Done{};
+}
+
 Diagnostic derived(const Target& target) {
     return input_error("target-derived",
                        fmt::format("{} is not printed but made from the text of {}", target.name,
@@ -56,6 +86,7 @@ Result<Emitted> emit(const ir::Program& program, const Target& target, const Emi
                 return status.error();
         return target.generate(program, target, options);
     }
+    if (Status status = refuse_early(program, target); !status) return status.error();
     ir::Program legal = program;
     if (options.count_reads) passes::count_texture_reads(legal.pixel);
     Result<Notes> notes = passes::optimize_program(legal, pipeline_options(target, options));

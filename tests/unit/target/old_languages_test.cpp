@@ -100,6 +100,8 @@ sampler map 2d
               "error: p reads textures more than 32 times once its loops are unrolled, and "
               "hlsl_2_0 allows no more [target-limit]\n"
               "  hint: try fewer taps or steps");
+    // Not unrolled to be refused.
+    EXPECT_EQ(refusal(program(1 << 24), "hlsl_2_0"), refusal(program(33), "hlsl_2_0"));
     EXPECT_TRUE(emit(program(32), *find_target("hlsl_2_0")).ok());
     EXPECT_TRUE(emit(program(33), *find_target("hlsl_2_b")).ok());
 }
