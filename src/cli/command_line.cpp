@@ -6,6 +6,7 @@
 
 #include "src/cli/bake.h"
 #include "src/cli/commands.h"
+#include "src/cli/hard.h"
 
 namespace intaglio::cli {
 namespace {
@@ -306,6 +307,7 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
     }
     add_report(app, catalogue, chosen);
     add_bake(app, chosen);
+    add_hard(app, catalogue, chosen);
 }
 
 }  // namespace

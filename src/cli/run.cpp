@@ -34,6 +34,11 @@ Status check_options(const RunOptions& options) {
     if (!options.error_map.empty() && options.mesh != "map")
         return input_error("option-value",
                            "--error-map needs --mesh map: the reference knows flat reliefs");
+    for (double azimuth : {options.azimuth, options.light_azimuth})
+        if (!std::isfinite(azimuth))
+            return input_error(
+                "option-value",
+                fmt::format("an azimuth is a number of degrees; {} is not", azimuth));
     for (double elevation : {options.elevation, options.light_elevation})
         if (!(elevation >= -90 && elevation <= 90))
             return input_error(

@@ -11,29 +11,6 @@
 namespace intaglio::measure {
 namespace {
 
-// The texture as the device would hold it.
-ir::Texture texture_of(const vulkan::Texture& from, bool one_level, bool nearest) {
-    const auto filter_of = [&](vulkan::Texture::Filter filter) {
-        return nearest || filter == vulkan::Texture::Filter::Nearest ? ir::Texture::Filter::Nearest
-                                                                     : ir::Texture::Filter::Linear;
-    };
-    ir::Texture made;
-    made.width = from.width;
-    made.height = from.height;
-    made.depth = std::max(1, from.depth);
-    made.filter = filter_of(from.filter);
-    made.mip_filter = filter_of(from.mip_filter);
-    made.wrap = from.wrap == vulkan::Texture::Wrap::Repeat ? ir::Texture::Wrap::Repeat
-                                                           : ir::Texture::Wrap::Clamp;
-    if (from.format == vulkan::Texture::Format::Rgba8Unorm)
-        made.weights = ir::Texture::Weights::EightBit;
-    for (const std::vector<float>& level : from.levels) {
-        made.levels.push_back(vulkan::decode(vulkan::encode(level, from.format), from.format));
-        if (one_level) break;
-    }
-    return made;
-}
-
 // The textures that a shader names.
 std::vector<std::string> textures_in(const d3d9::Shader& shader) {
     std::vector<std::string> names;
@@ -77,7 +54,7 @@ Status InterpretedQuad::add_textures(const Variant& variant, const Textures& tex
             // A name that nobody has stays missing: environment_of says so.
             if (source != nullptr)
                 textures_.try_emplace(
-                    name, texture_of(*source, one_level, reading.nearest.contains(name)));
+                    name, evaluator_texture(*source, one_level, reading.nearest.contains(name)));
         }
     return Done{};
 }

@@ -130,6 +130,12 @@ Result<MapSet> make_map_set(const std::string& maker, int width, int height, dou
     return set;
 }
 
+Result<MapSet> map_set_from_heights(std::string name, const maps::Image& heights, double scale) {
+    Result<maps::Image> normals = normals_with_heights(heights, scale);
+    if (!normals) return normals.error();
+    return MapSet{std::move(name), heights, std::move(*normals), grey_of(heights)};
+}
+
 vulkan::Texture height_texture(const MapSet& set, Filtering filtering) {
     return texture_of(set.heights, format_of(set.heights, filtering));
 }

@@ -38,6 +38,9 @@ Result<MapSet> load_map_set(const MapFiles& files, double scale);
 Result<MapSet> make_map_set(const std::string& maker, int width, int height, double scale,
                             std::uint32_t seed = 1);
 
+// Any heights as a map set: normals baked from them, colours a grey shade of them.
+Result<MapSet> map_set_from_heights(std::string name, const maps::Image& heights, double scale);
+
 enum class Filtering {
     Float,   // texels as float32, filtered exactly: what is left is the technique's own error
     Native,  // as the file's precision: RGBA8 is filtered with 8-bit weights on lavapipe

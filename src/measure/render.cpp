@@ -52,14 +52,43 @@ Status add_baked(vulkan::Draw& draw, const Textures& textures) {
 
 }  // namespace
 
+ir::Texture evaluator_texture(const vulkan::Texture& from, bool one_level, bool nearest) {
+    const auto filter_of = [&](vulkan::Texture::Filter filter) {
+        return nearest || filter == vulkan::Texture::Filter::Nearest ? ir::Texture::Filter::Nearest
+                                                                     : ir::Texture::Filter::Linear;
+    };
+    ir::Texture made;
+    made.width = from.width;
+    made.height = from.height;
+    made.depth = std::max(1, from.depth);
+    made.filter = filter_of(from.filter);
+    made.mip_filter = filter_of(from.mip_filter);
+    made.wrap = from.wrap == vulkan::Texture::Wrap::Repeat ? ir::Texture::Wrap::Repeat
+                                                           : ir::Texture::Wrap::Clamp;
+    if (from.format == vulkan::Texture::Format::Rgba8Unorm)
+        made.weights = ir::Texture::Weights::EightBit;
+    for (const std::vector<float>& level : from.levels) {
+        made.levels.push_back(vulkan::decode(vulkan::encode(level, from.format), from.format));
+        if (one_level) break;
+    }
+    return made;
+}
+
 Result<vulkan::Program> prepare_quad(const vulkan::Device& device, const check::Program& shaders,
                                      const Textures& textures, double scale, int width, int height,
                                      const Look& look, const PassLink& link) {
-    const vulkan::Mesh quad = vulkan::quad();
+    return prepare_flat(device, shaders, textures, vulkan::quad(), scale, width, height, look,
+                        link);
+}
+
+Result<vulkan::Program> prepare_flat(const vulkan::Device& device, const check::Program& shaders,
+                                     const Textures& textures, const vulkan::Mesh& mesh,
+                                     double scale, int width, int height, const Look& look,
+                                     const PassLink& link) {
     Copies copies;
     vulkan::Draw draw = base_draw(shaders, textures, width, height, link, copies);
     if (Status status = add_baked(draw, textures); !status) return status.error();
-    draw.mesh = &quad;
+    draw.mesh = &mesh;
     draw.uniforms = uniforms_of({}, {}, scale, textures.height.width, textures.height.height, look);
     draw.uniforms.insert(link.uniforms.begin(), link.uniforms.end());
     return vulkan::Program::prepare(device, draw);

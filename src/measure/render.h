@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "generator/ir/texture.h"
 #include "src/check/frontend.h"
 #include "src/measure/baked_maps.h"
 #include "src/measure/map_set.h"
@@ -26,6 +27,11 @@ struct Textures {
           baked(std::make_shared<BakedMaps>(set.heights, filtering)) {}
 };
 
+// A texture as the device would hold it, for the evaluators: texels rounded as their format does,
+// RGBA8 filtered by steps of 1/256; only the first level, or nearest, where the variant says so.
+ir::Texture evaluator_texture(const vulkan::Texture& from, bool one_level = false,
+                              bool nearest = false);
+
 // What one pass of a split surface needs beside the maps.
 struct PassLink {
     const vulkan::Texture* before = nullptr;  // the picture of the pass before
@@ -38,6 +44,11 @@ struct PassLink {
 Result<vulkan::Program> prepare_quad(const vulkan::Device& device, const check::Program& shaders,
                                      const Textures& textures, double scale, int width, int height,
                                      const Look& look = {}, const PassLink& link = {});
+// The same for any mesh in the plane z = 0, [0, 1]^2 of which is the picture.
+Result<vulkan::Program> prepare_flat(const vulkan::Device& device, const check::Program& shaders,
+                                     const Textures& textures, const vulkan::Mesh& mesh,
+                                     double scale, int width, int height, const Look& look = {},
+                                     const PassLink& link = {});
 // Turns the eye and the light of a prepared quad.
 Status aim(vulkan::Program& program, Direction view, Direction light);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -43,9 +44,22 @@ Failure check_mesh(const Mesh* mesh) {
                                          : std::string("none")));
     }
     const std::uint32_t last = *std::max_element(mesh->indices.begin(), mesh->indices.end());
-    if (last < mesh->vertices.size()) return {};
-    return input_error("bad-mesh", fmt::format("the mesh has {} vertices and an index {}",
-                                               mesh->vertices.size(), last));
+    if (last >= mesh->vertices.size())
+        return input_error("bad-mesh", fmt::format("the mesh has {} vertices and an index {}",
+                                                   mesh->vertices.size(), last));
+    const auto are_numbers = [](const auto& values) {
+        return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
+    };
+    for (std::size_t i = 0; i < mesh->vertices.size(); ++i) {
+        const Vertex& vertex = mesh->vertices[i];
+        if (!are_numbers(vertex.position) || !are_numbers(vertex.normal) ||
+            !are_numbers(vertex.tangent) || !are_numbers(vertex.uv))
+            return input_error("bad-mesh",
+                               fmt::format("vertex {} of the mesh holds a value that is "
+                                           "not a number",
+                                           i));
+    }
+    return {};
 }
 
 template <typename T>

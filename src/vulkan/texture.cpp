@@ -113,6 +113,16 @@ Status validate(const Texture& texture, const std::string& name) {
                     "level {} of texture '{}' is {} by {} texels{} and needs {} floats, not {}", l,
                     name, width, height, slices, expected, texture.levels[l].size()));
         }
+        // The unorm formats store NaN as 0 and Inf as 1.
+        const bool is_float = texture.format == Texture::Format::Rgba16Float ||
+                              texture.format == Texture::Format::Rgba32Float;
+        const auto odd = std::find_if(texture.levels[l].begin(), texture.levels[l].end(),
+                                      [](float value) { return !std::isfinite(value); });
+        if (is_float && odd != texture.levels[l].end())
+            return input_error(
+                "bad-texture",
+                fmt::format("texture '{}' holds {} at float {} of level {}, which is not a number",
+                            name, *odd, odd - texture.levels[l].begin(), l));
     }
     return Done{};
 }

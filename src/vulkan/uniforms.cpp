@@ -104,6 +104,9 @@ Types read_types(const check::SpirvWords& module) {
 Result<std::uint32_t> encode(float value, const BlockMember& member) {
     std::uint32_t bits = 0;
     if (member.scalar == Scalar::Float) {
+        if (!std::isfinite(value))
+            return input_error("bad-uniform", fmt::format("the uniform '{}' is {}, not a number",
+                                                          member.layout.name, value));
         std::memcpy(&bits, &value, sizeof bits);
         return bits;
     }

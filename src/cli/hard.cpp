@@ -1,0 +1,57 @@
+// The hard suite from the command line.
+#include "src/cli/hard.h"
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "src/cli/commands.h"
+#include "src/measure/hard.h"
+#include "src/report/hard_table.h"
+
+namespace intaglio::cli {
+namespace {
+
+struct HardOptions {
+    std::string only;  // part of a technique's name; empty: all
+    std::string device;
+    std::string output = "-";
+};
+
+Status hard(const dsl::Catalogue& catalogue, const HardOptions& options) {
+    std::vector<measure::HardRow> rows;
+    for (const measure::HardRow& row : measure::hard_rows())
+        if (row.name.find(options.only) != std::string::npos) rows.push_back(row);
+    if (rows.empty())
+        return input_error("option-value",
+                           fmt::format("--only: no technique's name contains '{}'; they read "
+                                       "relief, shadow march, normal map",
+                                       options.only));
+    const Result<vulkan::Device> device = vulkan::Device::create({options.device, false});
+    if (!device) return device.error();
+    const bool terminal = isatty(STDERR_FILENO);
+    const Result<measure::HardSuite> suite = measure::run_hard_suite(
+        *device, catalogue, rows, measure::hard_cases(), [&](int done, int all) {
+            if (terminal)
+                fmt::print(stderr, "\r{} of {} techniques{}", done, all, done == all ? "\n" : "");
+        });
+    if (!suite) return suite.error();
+    return write_product(options.output, report::hard_page(*suite), false);
+}
+
+}  // namespace
+
+void add_hard(CLI::App& app, const dsl::Catalogue& catalogue, std::function<Status()>& chosen) {
+    auto options = std::make_shared<HardOptions>();
+    CLI::App* command = app.add_subcommand(
+        "hard", "Every technique on every input that relief shaders break on, in Markdown");
+    command->add_option("--only", options->only, "Techniques whose name contains this");
+    command->add_option("--device", options->device,
+                        "Part of a Vulkan device's name; lavapipe if not given");
+    command->add_option("-o,--output", options->output, "File; - is stdout")->capture_default_str();
+    command->callback([&chosen, &catalogue, options] {
+        chosen = [&, options] { return hard(catalogue, *options); };
+    });
+}
+
+}  // namespace intaglio::cli
