@@ -308,6 +308,7 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
     add_report(app, catalogue, chosen);
     add_bake(app, chosen);
     add_hard(app, catalogue, chosen);
+    add_stability(app, catalogue, chosen);
 }
 
 }  // namespace

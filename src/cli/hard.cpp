@@ -8,6 +8,7 @@
 #include "src/cli/commands.h"
 #include "src/measure/hard.h"
 #include "src/report/hard_table.h"
+#include "src/report/stability_page.h"
 
 namespace intaglio::cli {
 namespace {
@@ -39,7 +40,35 @@ Status hard(const dsl::Catalogue& catalogue, const HardOptions& options) {
     return write_product(options.output, report::hard_page(*suite), false);
 }
 
+struct StabilityOptions {
+    std::string device;
+    std::string output = "-";
+};
+
+Status stability(const dsl::Catalogue& catalogue, const StabilityOptions& options) {
+    const Result<vulkan::Device> device = vulkan::Device::create({options.device, false});
+    if (!device) return device.error();
+    const Result<std::vector<measure::GuardRow>> guards =
+        measure::measure_guards(*device, catalogue);
+    if (!guards) return guards.error();
+    return write_product(options.output,
+                         report::stability_page(measure::stability_curves(), *guards), false);
+}
+
 }  // namespace
+
+void add_stability(CLI::App& app, const dsl::Catalogue& catalogue,
+                   std::function<Status()>& chosen) {
+    auto options = std::make_shared<StabilityOptions>();
+    CLI::App* command = app.add_subcommand(
+        "stability", "Published formulas beside the stable ones, and what each guard costs");
+    command->add_option("--device", options->device,
+                        "Part of a Vulkan device's name; lavapipe if not given");
+    command->add_option("-o,--output", options->output, "File; - is stdout")->capture_default_str();
+    command->callback([&chosen, &catalogue, options] {
+        chosen = [&, options] { return stability(catalogue, *options); };
+    });
+}
 
 void add_hard(CLI::App& app, const dsl::Catalogue& catalogue, std::function<Status()>& chosen) {
     auto options = std::make_shared<HardOptions>();

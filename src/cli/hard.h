@@ -1,4 +1,4 @@
-// `intaglio hard`: the hard suite as a page.
+// `intaglio hard` and `intaglio stability`: the hard suite and the stable formulas as pages.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,8 @@
 
 namespace intaglio::cli {
 
-// Adds the command; `chosen` is set to its work when it is named.
+// Each adds its command; `chosen` is set to its work when it is named.
 void add_hard(CLI::App& app, const dsl::Catalogue& catalogue, std::function<Status()>& chosen);
+void add_stability(CLI::App& app, const dsl::Catalogue& catalogue, std::function<Status()>& chosen);
 
 }  // namespace intaglio::cli

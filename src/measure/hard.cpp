@@ -66,6 +66,10 @@ Result<Compiled> compile(const dsl::Catalogue& catalogue, const HardRow& row) {
     if (!variant) return variant.error();
     Result<check::Program> shaders = link_variant(*variant);
     if (!shaders) return shaders.error();
+    if (row.rewrite) {
+        row.rewrite(variant->program.vertex);
+        row.rewrite(variant->program.pixel);
+    }
     ir::Evaluator vertex(variant->program.vertex), pixel(variant->program.pixel);
     return Compiled{std::move(*shaders), std::move(variant->program.vertex),
                     std::move(variant->program.pixel), std::move(vertex), std::move(pixel)};
@@ -215,6 +219,7 @@ class Suite {
             for (const ir::Sampler& sampler : compiled.pixel.samplers)
                 if (const auto texture = map.texture(sampler.name); !texture)
                     return texture.error();
+            if (row.evaluated_only) continue;
             if (!program) {
                 Result<vulkan::Program> made =
                     prepare_flat(device_, compiled.shaders, map.textures, mesh_, hard_case.scale,
@@ -262,7 +267,7 @@ class Suite {
         ir::Environment environment;
         for (const ir::Sampler& sampler : compiled.pixel.samplers)
             environment.samplers.push_back(&map.evaluated.at(sampler.name));
-        for (std::size_t w = 0; w < all_ways.size(); ++w) {
+        for (std::size_t w = row.evaluated_only ? 1 : 0; w < all_ways.size(); ++w) {
             const Way way = all_ways[w];
             const bool moved =
                 *expect == Expect::FormatsBest && (way == Way::Narrow24 || way == Way::Narrow16);
@@ -283,7 +288,7 @@ class Suite {
                 give_inputs(environment, compiled.pixel, rays[r]);
                 // The device's inputs are always numbers, so that its own formula is there.
                 outcomes[w][r].own =
-                    w == 0 || moved
+                    w == 0 || moved || row.evaluated_only
                         ? compiled.run_pixel.run(environment, ir::Precision::Double).outputs[0]
                         : outcomes[0][r].own;
                 if (way != Way::Device)

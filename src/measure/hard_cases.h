@@ -3,10 +3,12 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "generator/ir/module.h"
 #include "src/measure/map_set.h"
 #include "src/vulkan/mesh.h"
 
@@ -28,7 +30,11 @@ struct HardRow {
     HardPart part = HardPart::Search;
     HardYardstick yardstick = HardYardstick::FirstHit;
     double within = 0.5;  // texels of the yardstick that it promises
-    bool safe = false;    // never passes through the relief (STAR: Szirmay-Kalos, Umenhoffer 2008)
+    // Never passes through the relief (STAR: Szirmay-Kalos, Umenhoffer 2008).
+    bool safe = false;
+    // Experiments: the recorded stages are changed first, and the device is left out.
+    std::function<void(ir::Module&)> rewrite = {};
+    bool evaluated_only = false;
 };
 const std::vector<HardRow>& hard_rows();
 
