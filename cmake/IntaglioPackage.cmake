@@ -1,6 +1,6 @@
 # The package of the build tree: another project says -Dintaglio_DIR=<build folder> and links intaglio::generator (the
 # DSL, the techniques and the targets) or intaglio::command_line (all of it, as the `intaglio` program has it).
-set(intaglio_exported base ir passes d3d9 d3d9_generate target dsl templates reference maps check variant vulkan measure scene report cli)
+set(intaglio_exported base ir passes d3d9 d3d9_generate target dsl templates reference maps check variant vulkan measure scene report budget cli)
 
 add_library(intaglio_generator INTERFACE)
 target_link_libraries(intaglio_generator INTERFACE intaglio_templates intaglio_target)

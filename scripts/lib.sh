@@ -18,7 +18,7 @@ intaglio_packages=(
     # running on the CPU: loader, validation layer, lavapipe
     libvulkan-dev vulkan-validationlayers mesa-vulkan-drivers
     # libraries
-    libfmt-dev nlohmann-json3-dev libcli11-dev libtomlplusplus-dev libspng-dev libpng-dev zlib1g-dev
+    libfmt-dev nlohmann-json3-dev libcli11-dev libtomlplusplus-dev libspng-dev libpng-dev zlib1g-dev libpugixml-dev
     libgtest-dev libgmock-dev
     # plots of the report
     libjs-chart.js

@@ -73,6 +73,7 @@ int report_usage(const CLI::App& app, const CLI::ParseError& error) {
 int report(const Status& status) {
     if (status) return exit_fine;
     fmt::print(stderr, "{}\n", to_string(status.error()));
+    if (status.error().code == over_budget) return exit_over_budget;
     return status.error().fault == Fault::Internal ? exit_own_failure : exit_bad_input;
 }
 
@@ -179,6 +180,39 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
         command->callback([&chosen, &catalogue, options] {
             chosen = [&, options] { return explain(catalogue, *options); };
         });
+    }
+    {
+        auto options = std::make_shared<CheckOptions>();
+        CLI::App* command = app.add_subcommand(
+            "check",
+            "Limits on cost and error against what is measured; exit code 1 where one is "
+            "exceeded");
+        command->add_option("budgets", options->budgets, "The budget file (budgets.toml)")
+            ->required();
+        command->add_option("--baseline", options->baseline,
+                            "In place of the baseline that the budgets name");
+        CLI::Option* update = command->add_flag("--update", options->update,
+                                                "Make what is measured the new baseline");
+        command
+            ->add_flag("--patch", options->patch,
+                       "Print the new baseline as a patch (git apply --unidiff-zero)")
+            ->excludes(update);
+        command->add_option("--format", options->format, "text, json, junit, github or sarif");
+        command->add_option("--today", options->today,
+                            "The day that waivers are held against, as 2026-12-31");
+        command->add_option("-o,--output", options->output, "The report's file (default: stdout)");
+        command->callback([&chosen, &catalogue, options] {
+            chosen = [&, options] { return check(catalogue, *options); };
+        });
+    }
+    {
+        auto options = std::make_shared<DiffOptions>();
+        CLI::App* command =
+            app.add_subcommand("diff", "What changed between two files of check --update");
+        command->add_option("before", options->before, "A baseline")->required();
+        command->add_option("after", options->after, "Another")->required();
+        command->add_option("--format", options->format, "text, json, junit, github or sarif");
+        command->callback([&chosen, options] { chosen = [options] { return diff(*options); }; });
     }
     {
         auto options = std::make_shared<CostOptions>();

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "generator/base/result.h"
@@ -60,6 +61,27 @@ struct ExplainOptions {
 };
 // Says who spends the slots; of a refused variant too, which is no error here.
 Status explain(const dsl::Catalogue& catalogue, const ExplainOptions& options);
+
+// The code of the error that is no fault: exit code 1.
+inline constexpr std::string_view over_budget = "over-budget";
+
+struct CheckOptions {
+    std::string budgets;
+    std::string baseline;         // in place of the one that the budgets name
+    bool update = false;          // the baseline becomes what is measured
+    bool patch = false;           // ... as a patch, in place of the report
+    std::string format = "text";  // text, json, junit, github, sarif
+    std::string today;            // for waivers: "2026-12-31"; empty: the day in UTC
+    std::string output = "-";
+};
+// Error `over_budget` where a limit is exceeded or cannot be judged.
+Status check(const dsl::Catalogue& catalogue, const CheckOptions& options);
+
+struct DiffOptions {
+    std::string before, after;  // files that check --update writes
+    std::string format = "text";
+};
+Status diff(const DiffOptions& options);
 
 struct CostOptions {
     VariantOptions variant;

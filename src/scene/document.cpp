@@ -54,6 +54,9 @@ Value value_of(const toml::node& node) {
         value.boolean = boolean->get();
     } else {
         value.kind = Kind::Date;
+        if (const auto* date = node.as_date())
+            value.text = fmt::format("{:04}-{:02}-{:02}", date->get().year, date->get().month,
+                                     date->get().day);
     }
     return value;
 }

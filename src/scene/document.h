@@ -32,7 +32,7 @@ struct Value {
     bool boolean = false;         // of Boolean
     std::int64_t integer = 0;     // of Integer
     double real = 0;              // of Float and Integer
-    std::string text;             // of String
+    std::string text;             // of String; of a Date without time "2026-12-31"
     std::vector<Value> items;     // of Array
     std::vector<Member> members;  // of Table
 

@@ -11,6 +11,8 @@
 
 namespace intaglio::scene {
 
+std::string Reader::code(std::string_view what) const { return fmt::format("{}-{}", kind_, what); }
+
 void Reader::refuse(Position position, std::string code, std::string sentence) {
     if (error_ && Position{error_->line, error_->column} <= position) return;
     error_ =
@@ -19,7 +21,7 @@ void Reader::refuse(Position position, std::string code, std::string sentence) {
 
 bool Reader::is(const Value& value, Kind kind, std::string_view what) {
     if (value.kind == kind || (kind == Kind::Float && value.kind == Kind::Integer)) return true;
-    refuse(value.position, "scene-type",
+    refuse(value.position, code("type"),
            fmt::format("{} must be {}, and is {}", what,
                        kind == Kind::Float ? "a number" : noun_of(kind), noun_of(value.kind)));
     return false;
@@ -32,7 +34,7 @@ bool Reader::check_keys(const Value& table, std::string_view table_name,
     for (const Member& member : table.members) {
         if (std::find(names.begin(), names.end(), member.key) != names.end()) continue;
         known = false;
-        refuse(member.position, "scene-unknown-key",
+        refuse(member.position, code("unknown-key"),
                unknown_name_sentence(fmt::format("key of {}", table_name), member.key, names));
     }
     return known;
@@ -41,7 +43,7 @@ bool Reader::check_keys(const Value& table, std::string_view table_name,
 double Reader::number_of(const Value& value, std::string_view what, Range range) {
     if (!is(value, Kind::Float, what)) return range.least;
     if (value.real >= range.least && value.real <= range.most) return value.real;
-    refuse(value.position, "scene-range",
+    refuse(value.position, code("range"),
            fmt::format("{} is {}, and must be from {} to {}", what, value.real, range.least,
                        range.most));
     return range.least;
@@ -67,6 +69,11 @@ std::string Reader::text(const Value& table, std::string_view key, std::string f
                                                           : std::move(fallback);
 }
 
+std::string Reader::date(const Value& table, std::string_view key) {
+    const Member* member = table.find(key);
+    return member && is(member->value, Kind::Date, key) ? member->value.text : std::string();
+}
+
 bool Reader::boolean(const Value& table, std::string_view key, bool fallback) {
     const Member* member = table.find(key);
     return member && is(member->value, Kind::Boolean, key) ? member->value.boolean : fallback;
@@ -77,7 +84,7 @@ std::vector<const Value*> Reader::items_of(const Member& member) {
     if (member.value.kind != Kind::Array) return {&member.value};
     for (const Value& item : member.value.items) items.push_back(&item);
     if (items.empty())
-        refuse(member.value.position, "scene-empty",
+        refuse(member.value.position, code("empty"),
                fmt::format("{} must have at least one value", member.key));
     return items;
 }
@@ -90,7 +97,7 @@ std::vector<double> Reader::numbers(const Value& table, std::string_view key,
     for (const Value* item : items_of(*member)) {
         const double value = number_of(*item, key, range);
         if (std::find(values.begin(), values.end(), value) != values.end())
-            refuse(item->position, "scene-duplicate", fmt::format("{} has {} twice", key, value));
+            refuse(item->position, code("duplicate"), fmt::format("{} has {} twice", key, value));
         values.push_back(value);
     }
     return values;
@@ -103,7 +110,7 @@ std::vector<std::string> Reader::texts(const Value& table, std::string_view key)
     for (const Value* item : items_of(*member)) {
         if (!is(*item, Kind::String, key)) continue;
         if (std::find(values.begin(), values.end(), item->text) != values.end())
-            refuse(item->position, "scene-duplicate",
+            refuse(item->position, code("duplicate"),
                    fmt::format("{} has '{}' twice", key, item->text));
         values.push_back(item->text);
     }
@@ -117,7 +124,7 @@ std::size_t Reader::choice(const Value& table, std::string_view key, std::size_t
     const auto found = std::find(choices.begin(), choices.end(), member->value.text);
     if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
     const std::vector<std::string> names(choices.begin(), choices.end());
-    refuse(member->value.position, "scene-choice",
+    refuse(member->value.position, code("choice"),
            unknown_name_sentence(fmt::format("value of {}", key), member->value.text, names));
     return fallback;
 }
@@ -134,7 +141,7 @@ std::vector<const Value*> Reader::tables(const Value& parent, std::string_view k
     const Member* member = parent.find(key);
     if (!member) return all;
     if (member->value.kind != Kind::Array) {
-        refuse(member->position, "scene-type",
+        refuse(member->position, code("type"),
                fmt::format("there may be several of {0}, so write [[{0}]]", key));
         return all;
     }

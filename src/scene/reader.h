@@ -20,7 +20,9 @@ struct Range {
 
 class Reader {
   public:
-    explicit Reader(std::string file) : file_(std::move(file)) {}
+    // `kind` of file: what the codes below begin with in place of "scene".
+    explicit Reader(std::string file, std::string kind = "scene")
+        : file_(std::move(file)), kind_(std::move(kind)) {}
 
     // Of all refusals the one that stands first in the file.
     const std::optional<Diagnostic>& error() const { return error_; }
@@ -38,6 +40,8 @@ class Reader {
     std::int64_t whole(const Value& table, std::string_view key, std::int64_t fallback,
                        Range range);
     std::string text(const Value& table, std::string_view key, std::string fallback);
+    // "2026-12-31", written as a date of TOML; empty where there is none.
+    std::string date(const Value& table, std::string_view key);
     bool boolean(const Value& table, std::string_view key, bool fallback);
     // A value on its own, `what` naming it.
     double number_of(const Value& value, std::string_view what, Range range);
@@ -62,7 +66,9 @@ class Reader {
     // The value itself, or its items.
     std::vector<const Value*> items_of(const Member& member);
 
-    std::string file_;
+    std::string code(std::string_view what) const;
+
+    std::string file_, kind_;
     std::optional<Diagnostic> error_;
 };
 

@@ -1,0 +1,28 @@
+// What a budget can limit: one table of names, units and makers.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace intaglio::budget {
+
+struct Metric {
+    std::string_view name;  // as budgets.toml writes it
+    std::string_view unit;  // of its numbers, for people
+    enum class Of {
+        Direct3D9,  // slots and registers of a ps_* target
+        Spirv,      // every other target that becomes SPIR-V
+        Both,
+    } of;
+    bool is_error;           // not a cost
+    std::string_view about;  // what it counts, and who counts it
+};
+
+// Costs first.  In all of them less is better.
+std::span<const Metric> metrics();
+const Metric* find_metric(std::string_view name);
+std::vector<std::string> metric_names();
+
+}  // namespace intaglio::budget

@@ -1,0 +1,96 @@
+// `intaglio check` and `intaglio diff`: budgets, and what changed.
+#include <ctime>
+
+#include <fmt/format.h>
+
+#include "src/budget/formats.h"
+#include "src/budget/verdict.h"
+#include "src/cli/commands.h"
+#include "src/maps/files.h"
+#include "src/scene/scene.h"
+
+namespace intaglio::cli {
+namespace {
+
+std::string today() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    return fmt::format("{:04}-{:02}-{:02}", utc.tm_year + 1900, utc.tm_mon + 1, utc.tm_mday);
+}
+
+Result<std::string> formatted(const budget::Verdict& verdict, const std::string& format) {
+    if (format == "text") return budget::to_text(verdict);
+    if (format == "json") return budget::to_json(verdict);
+    if (format == "junit") return budget::to_junit(verdict);
+    if (format == "github") return budget::to_github(verdict);
+    if (format == "sarif") return budget::to_sarif(verdict);
+    return input_error(
+        "unknown-format",
+        fmt::format("unknown format '{}'; there are: text, json, junit, github, sarif", format));
+}
+
+// A baseline that is not there yet holds nothing.
+Result<std::vector<budget::Observation>> baseline_of(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (path.empty() || !std::filesystem::exists(path, ignored))
+        return std::vector<budget::Observation>();
+    return budget::read_lines(path);
+}
+
+}  // namespace
+
+Status check(const dsl::Catalogue& catalogue, const CheckOptions& options) {
+    const auto budgets = budget::read_budgets(options.budgets);
+    if (!budgets) return budgets.error();
+    // Said before minutes of measuring.
+    if (const auto known = formatted({}, options.format); !known) return known.error();
+    const std::filesystem::path baseline =
+        options.baseline.empty() ? budgets->baseline.value_or("") : options.baseline;
+    if (baseline.empty() && (options.update || options.patch))
+        return input_error("no-baseline",
+                           "the budgets name no baseline to write: add baseline = \"FILE\" or give "
+                           "--baseline FILE",
+                           options.budgets);
+    auto before = baseline_of(baseline);
+    if (!before) return before.error();
+    const auto scene = scene::read_scene_with_sources(budgets->scene);
+    if (!scene) return scene.error();
+    const auto now = budget::observe(catalogue, *scene);
+    if (!now) return now.error();
+    if (options.patch) {
+        const std::string text = budget::to_patch(
+            baseline.generic_string(), budget::to_lines(*before), budget::to_lines(*now));
+        return write_product(options.output, text, false);
+    }
+    if (options.update) {
+        if (Status status = write_product(baseline.string(), budget::to_lines(*now), false);
+            !status)
+            return status;
+        before = *now;
+    }
+    const budget::Verdict verdict =
+        budget::judge(*budgets, *now, *before, options.today.empty() ? today() : options.today);
+    const auto text = formatted(verdict, options.format);
+    if (!text) return text.error();
+    if (Status status = write_product(options.output, *text, false); !status) return status;
+    if (verdict.passes()) return Done{};
+    Diagnostic error = input_error(std::string(over_budget), "not within budget", options.budgets);
+    if (!baseline.empty() && !options.update)
+        error.notes.push_back(fmt::format(
+            "hint: growth that is meant: intaglio check {} --update, or --patch for a patch",
+            options.budgets));
+    return error;
+}
+
+Status diff(const DiffOptions& options) {
+    const auto before = budget::read_lines(options.before),
+               after = budget::read_lines(options.after);
+    if (!before) return before.error();
+    if (!after) return after.error();
+    const auto text = formatted(budget::difference(*before, *after), options.format);
+    if (!text) return text.error();
+    return write_product("-", *text, false);
+}
+
+}  // namespace intaglio::cli
