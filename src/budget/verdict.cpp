@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -190,6 +191,12 @@ Verdict judge(const Budgets& budgets, const std::vector<Observation>& now,
         else if (used[i] == 0)
             verdict.notes.push_back(fmt::format("{}: the waiver forgives nothing", place));
     }
+    const auto better = std::count_if(
+        verdict.findings.begin(), verdict.findings.end(),
+        [](const Finding& finding) { return finding.growth() && *finding.growth() < 1; });
+    if (verdict.passes() && better > 0)
+        verdict.notes.push_back(fmt::format(
+            "{} got better: intaglio check {} --update holds them to it", better, budgets.file));
     return verdict;
 }
 

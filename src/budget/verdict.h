@@ -38,7 +38,7 @@ struct Finding {
 struct Verdict {
     std::string budget_file;
     std::vector<Finding> findings;   // by variant, metric in the table's order
-    std::vector<std::string> notes;  // waivers that are over or forgive nothing
+    std::vector<std::string> notes;  // waivers that are over or forgive nothing; what got better
     bool passes() const;
 };
 

@@ -46,7 +46,8 @@ Status check(const dsl::Catalogue& catalogue, const CheckOptions& options) {
     // Said before minutes of measuring.
     if (const auto known = formatted({}, options.format); !known) return known.error();
     const std::filesystem::path baseline =
-        options.baseline.empty() ? budgets->baseline.value_or("") : options.baseline;
+        options.baseline.empty() ? budgets->baseline.value_or(std::filesystem::path())
+                                 : std::filesystem::path(options.baseline);
     if (baseline.empty() && (options.update || options.patch))
         return input_error("no-baseline",
                            "the budgets name no baseline to write: add baseline = \"FILE\" or give "

@@ -92,7 +92,7 @@ TEST_F(BudgetFile, MistakesHaveAPlaceAndTheNearestRightWord) {
          ":3:1: error: unknown metric in [limits] 'p96'; did you mean 'p95'? [budget-unknown-key]"},
         {scene + "[limits]\np95 = { maximum = 1 }\n", "unknown key of p95 'maximum'"},
         {scene + "[limits]\np95 = {}\n", "p95 needs a max or a max_delta [budget-missing]"},
-        {scene + "[limits]\np95 = 3\n", "p95 must be a table, and is a number [budget-type]"},
+        {scene + "[limits]\np95 = 3\n", "p95 must be a table, and is a whole number [budget-type]"},
         {scene + "[limits]\np95 = { max_delta = -1 }\n", "[budget-range]"},
         {scene + "[target.ps_2_1]\np95 = { max = 1 }\n",
          "unknown target 'ps_2_1'; did you mean 'ps_2_b'? [unknown-target]"},
