@@ -19,6 +19,7 @@ intaglio_packages=(
     libvulkan-dev vulkan-validationlayers mesa-vulkan-drivers
     # libraries
     libfmt-dev nlohmann-json3-dev libcli11-dev libtomlplusplus-dev libspng-dev libpng-dev zlib1g-dev libpugixml-dev
+    libxxhash-dev
     libgtest-dev libgmock-dev
     # plots of the report
     libjs-chart.js

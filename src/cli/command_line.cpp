@@ -7,6 +7,7 @@
 #include "src/cli/bake.h"
 #include "src/cli/commands.h"
 #include "src/cli/hard.h"
+#include "src/cli/sweep.h"
 
 namespace intaglio::cli {
 namespace {
@@ -340,6 +341,7 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
         });
     }
     add_report(app, catalogue, chosen);
+    add_sweep(app, catalogue, chosen);
     add_bake(app, chosen);
     add_hard(app, catalogue, chosen);
     add_stability(app, catalogue, chosen);

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <thread>
+
+#include "src/measure/rows.h"
 
 namespace intaglio::measure {
 namespace {
@@ -23,17 +24,6 @@ double ray_parameter(reference::Vec2 uv, reference::Vec2 reported, reference::Ve
     return ((uv.x - reported.x) * reach_x + (uv.y - reported.y) * reach_y) / squared;
 }
 
-// Runs `row(y)` for every row, spread over the machine's cores; rows write to places of their own.
-template <typename Row>
-void for_each_row(int height, const Row& row) {
-    const int workers = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    std::vector<std::jthread> threads;
-    for (int worker = 0; worker < workers; ++worker)
-        threads.emplace_back([&row, worker, workers, height] {
-            for (int y = worker; y < height; y += workers) row(y);
-        });
-}
-
 // The value that a share of the sorted values does not exceed.
 double percentile(const std::vector<float>& sorted, double share) {
     if (sorted.empty()) return 0;
@@ -44,13 +34,13 @@ double percentile(const std::vector<float>& sorted, double share) {
 }  // namespace
 
 ExactPicture trace_exact(const reference::HeightField& field, Direction view, Direction light,
-                         float scale, int width, int height) {
+                         float scale, int width, int height, int threads) {
     ExactPicture exact{
         width, height, std::vector<reference::Hit>(static_cast<std::size_t>(width * height)), {}};
     std::vector<char> lit(exact.hits.size());
     const reference::Vec3 v = exact_vector(vector_of(view));
     const reference::Vec3 l = exact_vector(vector_of(light));
-    for_each_row(height, [&](int y) {
+    for_each_row(height, threads, [&](int y) {
         for (int x = 0; x < width; ++x) {
             const std::size_t pixel = static_cast<std::size_t>(y * width + x);
             const reference::Hit hit =
@@ -64,11 +54,11 @@ ExactPicture trace_exact(const reference::HeightField& field, Direction view, Di
 }
 
 std::vector<HitError> compare_hits(const vulkan::Picture& displaced, const ExactPicture& exact,
-                                   const reference::HeightField& field, Direction view,
-                                   float scale) {
+                                   const reference::HeightField& field, Direction view, float scale,
+                                   int threads) {
     std::vector<HitError> errors(exact.hits.size());
     const reference::Vec3 v = exact_vector(vector_of(view));
-    for_each_row(exact.height, [&](int y) {
+    for_each_row(exact.height, threads, [&](int y) {
         for (int x = 0; x < exact.width; ++x) {
             const std::size_t pixel = static_cast<std::size_t>(y * exact.width + x);
             const std::array<float, 4>& reported = displaced.pixels[pixel];

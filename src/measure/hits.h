@@ -18,9 +18,9 @@ struct ExactPicture {
 };
 
 // Pixel (x, y) looks at uv ((x + 0.5) / width, (y + 0.5) / height).  `scale` as the shader got it,
-// in float.
+// in float.  `threads` as in rows.h.
 ExactPicture trace_exact(const reference::HeightField& field, Direction view, Direction light,
-                         float scale, int width, int height);
+                         float scale, int width, int height, int threads = 0);
 
 // The error of one pixel.
 struct HitError {
@@ -36,8 +36,8 @@ struct HitError {
 
 // One entry per pixel.  `displaced`: coordinate in xy, height in z, visibility in w.
 std::vector<HitError> compare_hits(const vulkan::Picture& displaced, const ExactPicture& exact,
-                                   const reference::HeightField& field, Direction view,
-                                   float scale);
+                                   const reference::HeightField& field, Direction view, float scale,
+                                   int threads = 0);
 
 struct HitStatistics {
     std::int64_t pixels = 0;

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <thread>
+#include <numeric>
 
 #include <fmt/format.h>
+
+#include "src/measure/rows.h"
 
 namespace intaglio::measure {
 namespace {
@@ -17,21 +19,6 @@ std::vector<std::string> textures_in(const d3d9::Shader& shader) {
     for (const d3d9::Constant& constant : shader.constants)
         if (constant.set == d3d9::Constant::Set::Sampler) names.push_back(constant.name);
     return names;
-}
-
-// Runs `row(y)` for every second y, spread over the machine's cores; false stops them.
-template <typename Row>
-bool for_each_second_row(int height, const Row& row) {
-    const int workers = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    std::atomic<bool> fine = true;
-    std::vector<std::jthread> threads;
-    for (int worker = 0; worker < workers; ++worker)
-        threads.emplace_back([&, worker] {
-            for (int y = 2 * worker; y < height && fine; y += 2 * workers)
-                if (!row(y)) fine = false;
-        });
-    threads.clear();
-    return fine;
 }
 
 }  // namespace
@@ -109,6 +96,12 @@ Result<InterpretedQuad> InterpretedQuad::with_partial_precision() const {
     return half;
 }
 
+InterpretedQuad InterpretedQuad::with_weights(ir::Texture::Weights weights) const {
+    InterpretedQuad other = *this;
+    for (auto& [name, texture] : other.textures_) texture.weights = weights;
+    return other;
+}
+
 d3d9::Inputs InterpretedQuad::inputs_of(const d3d9::Environment& environment, int x, int y) const {
     const float u = (static_cast<float>(x) + 0.5f) / static_cast<float>(width_);
     const float v = (static_cast<float>(y) + 0.5f) / static_cast<float>(height_);
@@ -128,7 +121,7 @@ d3d9::Inputs InterpretedQuad::inputs_of(const d3d9::Environment& environment, in
 }
 
 Result<InterpretedPicture> InterpretedQuad::draw(Direction view, Direction light,
-                                                 d3d9::Arithmetic arithmetic) const {
+                                                 d3d9::Arithmetic arithmetic, int threads) const {
     const auto uniforms = uniforms_of(view, light, scale_, map_width_, map_height_, look_);
     std::map<std::string, const ir::Texture*> textures;
     for (const auto& [name, texture] : textures_) textures[name] = &texture;
@@ -141,8 +134,11 @@ Result<InterpretedPicture> InterpretedQuad::draw(Direction view, Direction light
     const std::size_t pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
     result.picture = {width_, height_, std::vector<std::array<float, 4>>(pixels)};
     std::vector<int> reads(pixels);
-    const bool complete = for_each_second_row(height_, [&](int y) {
-        for (int x = 0; x < width_; x += 2) {
+    std::vector<long> instructions(pixels);
+    std::atomic<bool> complete = true;
+    for_each_row((height_ + 1) / 2, threads, [&](int pair) {
+        const int y = 2 * pair;
+        for (int x = 0; x < width_ && complete; x += 2) {
             std::array<d3d9::Inputs, 4> inputs;
             for (int i = 0; i < 4; ++i)
                 inputs[static_cast<std::size_t>(i)] = inputs_of(*for_vertex, x + i % 2, y + i / 2);
@@ -152,22 +148,23 @@ Result<InterpretedPicture> InterpretedQuad::draw(Direction view, Direction light
                 if (x + i % 2 >= width_ || y + i / 2 >= height_) continue;
                 const d3d9::Execution& done = quad[static_cast<std::size_t>(i)];
                 const auto at = static_cast<std::size_t>((y + i / 2) * width_ + x + i % 2);
-                if (!done.complete) return false;
+                if (!done.complete) complete = false;
                 if (!done.killed) result.picture.pixels[at] = done.colours[0];
                 reads[at] = done.texture_reads;
+                instructions[at] = done.instructions;
             }
         }
-        return true;
     });
     if (!complete)
         return input_error("endless-shader",
                            "the pixel shader was stopped: its loops do not come to an end");
-    double sum = 0;
-    for (int count : reads) {
-        sum += count;
-        result.reads_max = std::max(result.reads_max, count);
-    }
-    result.reads_mean = sum / static_cast<double>(pixels);
+    const auto mean = [&](const auto& counts) {
+        return std::accumulate(counts.begin(), counts.end(), 0.0) / static_cast<double>(pixels);
+    };
+    result.reads_mean = mean(reads);
+    result.reads_max = *std::max_element(reads.begin(), reads.end());
+    result.instructions_mean = mean(instructions);
+    result.instructions_max = *std::max_element(instructions.begin(), instructions.end());
     return result;
 }
 

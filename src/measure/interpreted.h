@@ -17,6 +17,8 @@ struct InterpretedPicture {
     vulkan::Picture picture;  // oC0; 0 where the pixel was killed
     double reads_mean = 0;    // textures read, per pixel
     int reads_max = 0;
+    double instructions_mean = 0;  // carried out, per pixel
+    long instructions_max = 0;
 };
 
 // Seen from infinity every attribute of the quad is an affine function of the pixel's place, so the
@@ -34,9 +36,12 @@ class InterpretedQuad {
                                            double scale, int width, int height,
                                            const Look& look = {});
 
-    // Spread over the machine's cores.  Error "endless-shader": a pixel did not come to its end.
-    Result<InterpretedPicture> draw(Direction view, Direction light,
-                                    d3d9::Arithmetic arithmetic) const;
+    // `threads` as in rows.h.  Error "endless-shader": a pixel did not come to its end.
+    Result<InterpretedPicture> draw(Direction view, Direction light, d3d9::Arithmetic arithmetic,
+                                    int threads = 0) const;
+
+    // The same with all textures filtered so.
+    InterpretedQuad with_weights(ir::Texture::Weights weights) const;
 
     // The same with _pp on every instruction of the pixel stage: what is left where all is done in
     // 16 bits, drawn in d3d9::Arithmetic::Fp16Partial.

@@ -7,59 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "src/check/spirv.h"
-#include "src/measure/interpreted.h"
-#include "src/measure/render.h"
+#include "src/measure/compiled.h"
 
 namespace intaglio::measure {
 namespace {
-
-// A row's two shaders: the one that says where it hit and how much it read, and the one people
-// would ship.  Of Direct3D 9 the first is interpreted, which needs no counter in the shader.
-struct CompiledRow {
-    std::optional<Variant> bytecode;
-    check::Program instrumented;
-    check::Program shaded;
-    check::SpirvCost cost;
-    std::optional<d3d9::Resources> slots;
-    std::vector<std::string> settings;
-};
-
-Result<CompiledRow> compile_row(const dsl::Catalogue& catalogue, const VariantRequest& request) {
-    CompiledRow row;
-    const Result<Variant> shaded = make_variant(catalogue, request);
-    if (!shaded) return shaded.error();
-    row.settings = shaded->program.settings;
-    Result<check::Program> linked = link_variant(*shaded);
-    if (!linked) return linked.error();
-    row.shaded = std::move(*linked);
-    const Result<check::SpirvWords> optimized = check::optimize_spirv(row.shaded.pixel);
-    if (!optimized) return optimized.error();
-    const Result<check::SpirvCost> cost =
-        check::count_spirv(*optimized, longest_loop(shaded->program));
-    if (!cost) return cost.error();
-    row.cost = *cost;
-    const bool is_bytecode = profile_of(*shaded->target).has_value();
-    if (is_bytecode) {
-        const Result<d3d9::Shader> shader = decode_stage(*shaded, ir::Stage::Pixel);
-        if (!shader) return shader.error();
-        row.slots = d3d9::count(*shader);
-    }
-
-    VariantRequest instrumented = request;
-    instrumented.surface = dsl::with_part(request.surface, "output", "displaced");
-    instrumented.count_reads = !is_bytecode;
-    Result<Variant> variant = make_variant(catalogue, instrumented);
-    if (!variant) return variant.error();
-    if (is_bytecode) {
-        row.bytecode = std::move(*variant);
-        return row;
-    }
-    linked = link_variant(*variant);
-    if (!linked) return linked.error();
-    row.instrumented = std::move(*linked);
-    return row;
-}
 
 double median(std::vector<double> values) {
     if (values.empty()) return 0;
@@ -85,12 +36,6 @@ void count_reads(const vulkan::Picture& reads, CaseResult& result) {
     result.reads_mean = sum / static_cast<double>(reads.pixels.size());
 }
 
-// A row's instrumented shader, by the device or interpreted.
-struct PreparedHits {
-    std::optional<vulkan::Program> program;
-    std::optional<InterpretedQuad> bytecode, in_half;
-};
-
 // Prepared programs of all rows on one map.
 struct PreparedMap {
     reference::HeightField field;
@@ -98,32 +43,12 @@ struct PreparedMap {
     std::vector<vulkan::Program> shaded;
 };
 
-Result<PreparedHits> prepare_hits(const vulkan::Device& device, const Plan& plan,
-                                  const CompiledRow& row, const Textures& textures) {
-    PreparedHits hits;
-    if (row.bytecode) {
-        Result<InterpretedQuad> quad =
-            InterpretedQuad::prepare(*row.bytecode, textures, plan.scale, plan.size, plan.size);
-        if (!quad) return quad.error();
-        Result<InterpretedQuad> in_half = quad->with_partial_precision();
-        if (!in_half) return in_half.error();
-        hits.bytecode = std::move(*quad);
-        hits.in_half = std::move(*in_half);
-        return hits;
-    }
-    Result<vulkan::Program> program =
-        prepare_quad(device, row.instrumented, textures, plan.scale, plan.size, plan.size);
-    if (!program) return program.error();
-    hits.program = std::move(*program);
-    return hits;
-}
-
 Result<PreparedMap> prepare_map(const vulkan::Device& device, const Plan& plan,
                                 const std::vector<CompiledRow>& rows, const MapSet& set) {
     PreparedMap prepared{set.height_field(reference::FilterWeights::Exact), {}, {}};
     const Textures textures(set, plan.filtering);
     for (const CompiledRow& row : rows) {
-        Result<PreparedHits> hits = prepare_hits(device, plan, row, textures);
+        Result<PreparedHits> hits = prepare_hits(device, row, textures, plan.scale, plan.size);
         if (!hits) return hits.error();
         prepared.instrumented.push_back(std::move(*hits));
         Result<vulkan::Program> program =
@@ -183,9 +108,8 @@ Status measure_bytecode(const PreparedHits& shader, const View& view, CaseResult
     result.reads_mean = wide->reads_mean;
     result.reads_max = wide->reads_max;
     for (d3d9::Arithmetic arithmetic : narrow_arithmetics) {
-        const bool half = arithmetic == d3d9::Arithmetic::Fp16Partial;
-        const InterpretedQuad& quad = half ? *shader.in_half : *shader.bytecode;
-        const Result<InterpretedPicture> narrow = quad.draw(view.view, view.light, arithmetic);
+        const Result<InterpretedPicture> narrow =
+            shader.quad(arithmetic).draw(view.view, view.light, arithmetic);
         if (!narrow) return narrow.error();
         result.narrow_hits.push_back(view.hits_of(narrow->picture));
     }

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "src/measure/command.h"
 #include "src/measure/measure.h"
 
 namespace intaglio::report {
@@ -13,15 +13,12 @@ namespace intaglio::report {
 // {"--height", "wall.png"} (scene::Scene has them).  A map beyond the end has none.
 using MapArguments = std::vector<std::vector<std::string>>;
 
-// A form as scenes and command lines write it, "loop" or "unroll"; "schedule" where none is asked
-// for.
-std::string_view word_of(ir::LoopForm form);
+using measure::word_of;
 
 // What was asked of a variant besides surface and target: "taps=8 march:unroll per_vertex".
 std::string settings_of(const VariantRequest& request);
 
-// Quoted for a POSIX shell where it must be.
-std::string shell_quoted(const std::string& argument);
+using measure::shell_quoted;
 
 // The command that draws the picture of a case and the map of its errors: same variant, map, view,
 // light, scale and size.  Empty where the map has no arguments.

@@ -31,6 +31,8 @@
 //     loops = { march = "unroll" }      # or "loop", above the technique's schedule
 //     per_vertex = false                # move affine work to the vertex stage
 //
+// A map's class and a variant's arithmetics are for sweeps (sweep.h), and do nothing here.
+//
 // Everything but [[map]] and [[variant]] may be missing; the values above are the defaults.
 #pragma once
 

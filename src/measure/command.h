@@ -1,0 +1,28 @@
+// A case as words: the variant it draws, and the command line that draws it again.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "src/measure/case.h"
+
+namespace intaglio::measure {
+
+// A form as scenes and command lines write it, "loop" or "unroll"; "schedule" where none is asked
+// for.
+std::string_view word_of(ir::LoopForm form);
+
+// Surface, target, knobs by name, loops and the rest: two requests with the same text draw the
+// same.
+std::string text_of(const VariantRequest& request);
+
+// Quoted for a POSIX shell where it must be.
+std::string shell_quoted(const std::string& argument);
+
+// `intaglio run` with the variant, the map (its arguments), the view, light, scale, size and the
+// device (part of its name; empty: lavapipe), then `more`.
+std::string run_command(const Case& what, const std::vector<std::string>& map_arguments,
+                        const std::string& device, const std::vector<std::string>& more);
+
+}  // namespace intaglio::measure

@@ -1,0 +1,50 @@
+// The pieces of scene files that sweeps have too: maps, directions, variants.  Inside src/scene
+// only.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/measure/map_set.h"
+#include "src/measure/view.h"
+#include "src/scene/reader.h"
+#include "src/variant/variant.h"
+
+namespace intaglio::scene {
+
+// A map as the file describes it.
+struct MapEntry {
+    Position position;
+    std::string name;  // empty: what loading gives it
+    std::string map_class;
+    std::string maker;
+    std::int64_t width = 256, height = 256, seed = 1;
+    std::optional<measure::MapFiles> files;
+};
+
+// The tree of a file.  Errors: those of maps::read_file and parse_toml.
+Result<Value> read_document(const std::filesystem::path& path);
+
+// Every elevation with every azimuth of the table `key`; straight down once.
+std::vector<measure::Direction> read_directions(Reader& reader, const Value& document,
+                                                std::string_view key,
+                                                std::vector<double> elevations,
+                                                std::vector<double> azimuths);
+
+// The tables of [[map]]; files are relative to `folder`.
+std::vector<MapEntry> read_maps(Reader& reader, const Value& document,
+                                const std::filesystem::path& folder);
+Result<measure::MapSet> load_map(const MapEntry& entry, double scale);
+// What `intaglio run` takes for it.
+std::vector<std::string> arguments_of(const MapEntry& entry);
+std::vector<std::string> arguments_of(const measure::MapFiles& files);
+
+// One table of [[variant]], as the rows it stands for, behind those that are there.
+void read_variant(Reader& reader, const Value& table, std::vector<VariantRequest>& rows);
+
+// An error of loading points at the scene: with its own place where it has none, else in a note.
+Diagnostic placed(Diagnostic error, const std::string& scene, Position position);
+
+}  // namespace intaglio::scene
