@@ -287,6 +287,12 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
         command->add_option("--error-map", options->error_map,
                             "Also a picture of the hit errors (with --mesh map)");
         command
+            ->add_option("--arithmetic", options->arithmetic,
+                         "Of the pixel stage: fp32, or on the CPU fp24 or fp16 (with --mesh map)")
+            ->capture_default_str();
+        command->add_option("--pixel", options->pixel,
+                            "Also the ray of a pixel in words: 12,40 (with --mesh map)");
+        command
             ->add_option("--format", options->passes.format,
                          "Of the picture between passes: rgba8, rgba16, rgba16f or rgba32f")
             ->capture_default_str();

@@ -131,6 +131,9 @@ struct RunOptions {
     std::string device;
     bool validation = false;
     std::string error_map;  // a file for the map of hit errors; only with mesh = map
+    // As sweeps measure it, with mesh = map: fp24 and fp16 by the interpreter or the evaluator.
+    std::string arithmetic = "fp32";
+    std::string pixel;  // "12,40": said in words; empty: none
     PassOptions passes;
     std::string output;
 };

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "src/cli/commands.h"
+#include "src/cli/run_case.h"
 #include "src/maps/png.h"
 #include "src/measure/displaced.h"
 #include "src/measure/shells.h"
@@ -168,16 +169,6 @@ measure::Shot shot_of(const RunOptions& options, Size size) {
     return shot;
 }
 
-Status write_error_map(const std::vector<measure::HitError>& errors, const std::string& path,
-                       Size size) {
-    const measure::HitStatistics s = measure::summarize(errors, size.width);
-    fmt::print(stderr,
-               "hit error in texels: median {:.3g}, p95 {:.3g}, p99 {:.3g}, max {:.3g} at pixel "
-               "({}, {}); missed {} of {}; NaN {}\n",
-               s.median, s.p95, s.p99, s.max, s.worst_x, s.worst_y, s.missed, s.pixels, s.invalid);
-    return maps::write_png(path, report::error_map(errors, size.width));
-}
-
 // Draws a pass on the mesh; what it refers to must outlive it.
 measure::PreparePass prepare_on_mesh(const vulkan::Device& device,
                                      const measure::Textures& textures, const RunOptions& options,
@@ -260,6 +251,7 @@ Status print_format_error(const dsl::Catalogue& catalogue, const measure::SplitD
 
 Status run(const dsl::Catalogue& techniques, const RunOptions& options) {
     if (Status status = check_options(options); !status) return status;
+    if (is_case(options)) return run_case(techniques, options);
     const bool polygon = options.geometry == "polygon";
     const dsl::Catalogue catalogue = polygon ? techniques : measure::with_geometry(techniques);
     Result<VariantRequest> request = request_of(options.variant);
@@ -326,7 +318,7 @@ Status run(const dsl::Catalogue& techniques, const RunOptions& options) {
         const Result<std::vector<measure::HitError>> errors =
             measure::shot_errors(*device, catalogue, *request, *set, textures, shot);
         if (!errors) return errors.error();
-        if (Status status = write_error_map(*errors, options.error_map, *size); !status)
+        if (Status status = write_error_map(*errors, options.error_map, size->width); !status)
             return status;
     }
     if (Status status = check_validation(*device); !status) return status;

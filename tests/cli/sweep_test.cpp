@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -198,6 +199,41 @@ TEST_F(Sweep, SaysWhichVariantATargetRefuses) {
     for (const std::string& line : lines("out"))
         refused += line.find("\"refused\":{\"code\":") != std::string::npos ? 1 : 0;
     EXPECT_EQ(refused, 2);
+}
+
+// What stands between two marks.
+std::string between(const std::string& text, const std::string& begin, const std::string& end) {
+    const std::size_t from = text.find(begin);
+    if (from == std::string::npos) return {};
+    const std::size_t start = from + begin.size();
+    return text.substr(start, text.find(end, start) - start);
+}
+
+TEST_F(Sweep, TheWorstPixelsCommandShowsThePixel) {
+    write("2", "[[variant]]\nsurface = \"parallax\"\ntargets = [\"glsl_450\"]\n"
+               "arithmetics = [\"fp16\"]\n");
+    ASSERT_EQ(run(sweep("out")), 0) << contents("err");
+    std::set<std::string> makers;
+    for (const std::string& line : lines("out")) {
+        const std::string maker = between(line, "\"made_by\":\"", "\"") +
+                                  between(line, "\"arithmetic\":\"", "\"");
+        if (!makers.insert(maker).second) continue;
+        const std::string worst = between(line, "\"worst\":", "}");
+        const std::string command = between(worst, "\"command\":\"intaglio", "\"");
+        const std::string shell = "cd '" + folder_.string() + "' && '" INTAGLIO_TOOL "'" + command +
+                                  " 2> said </dev/null";
+        EXPECT_EQ(std::system(shell.c_str()), 0) << command << contents("said");
+        const double expected = std::stod(between(worst, "\"texels\":", ","));
+        EXPECT_GT(expected, 0) << line;
+        EXPECT_EQ(std::stod(between(contents("said"), "): ", " texels off")), expected) << command;
+        const std::string pixel = between(worst, "\"pixel\":[", "]");
+        EXPECT_THAT(contents("said"), HasSubstr("pixel (" + between("," + pixel, ",", ",") + ", "));
+        EXPECT_TRUE(fs::exists(folder_ / "picture.png"));
+        EXPECT_TRUE(fs::exists(folder_ / "errors.png"));
+    }
+    EXPECT_THAT(makers, testing::UnorderedElementsAre("devicefp32", "evaluatorfp16",
+                                                      "interpreterfp32", "interpreterfp24",
+                                                      "interpreterfp16"));
 }
 
 }  // namespace
