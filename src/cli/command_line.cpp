@@ -245,6 +245,54 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
         });
     }
     {
+        auto options = std::make_shared<PagesOptions>();
+        CLI::App* command = app.add_subcommand(
+            "pages", "Pictures, figures and costs into the pages of the techniques");
+        command
+            ->add_option("-o,--output", options->output,
+                         "Folder with techniques/*.md, whose marked blocks are written anew; "
+                         "pictures go to its images/techniques")
+            ->capture_default_str();
+        command
+            ->add_option("--maps", options->maps,
+                         "Folder with the maps that figures are measured on")
+            ->capture_default_str();
+        command
+            ->add_option("--only", options->only,
+                         "A block's title: search=relief, fur (repeatable); all if not given")
+            ->allow_extra_args(false);
+        command->add_option("-j,--threads", options->threads, "Techniques at once, of costs")
+            ->capture_default_str()
+            ->check(CLI::Range(1, 256));
+        command->callback([&chosen, &catalogue, options] {
+            chosen = [&, options] { return write_pages(catalogue, *options); };
+        });
+    }
+    {
+        auto options = std::make_shared<SheetOptions>();
+        CLI::App* command = app.add_subcommand(
+            "sheet", "Every search on many maps in one picture, each beside its errors");
+        command->add_option("-o,--output", options->output, "Folder for searches.60.png, ...")
+            ->required();
+        command->add_option("--maps", options->maps, "Folder with folders of maps")
+            ->capture_default_str();
+        command->add_option("--height", options->height, "A height map in place of those");
+        command
+            ->add_option("--elevation", options->elevations,
+                         "Of the eye, degrees above the surface (repeatable)")
+            ->allow_extra_args(false)
+            ->check(CLI::Range(1.0, 90.0))
+            ->capture_default_str();
+        command->add_option("--size", options->size, "Pixels of a picture's side")
+            ->check(CLI::Range(32, 512))
+            ->capture_default_str();
+        command->add_option("--device", options->device,
+                            "Part of a Vulkan device's name; lavapipe if not given");
+        command->callback([&chosen, &catalogue, options] {
+            chosen = [&, options] { return write_sheets(catalogue, *options); };
+        });
+    }
+    {
         auto options = std::make_shared<RunOptions>();
         CLI::App* command =
             app.add_subcommand("run", "One picture on a Vulkan device, without a window");

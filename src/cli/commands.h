@@ -98,6 +98,26 @@ struct TableOptions {
 // What each Direct3D 9 profile makes of every technique and knob, in Markdown.
 Status table_of_settings(const dsl::Catalogue& catalogue, const TableOptions& options);
 
+struct PagesOptions {
+    std::string output = "docs";         // holds techniques/*.md; pictures go to images/techniques
+    std::string maps = "examples/maps";  // with the map that the figures are of
+    std::vector<std::string> only;       // titles of blocks; empty: all
+    int threads = 2;
+};
+// Writes what pages of techniques have from the generator and the runner: pictures, figures, costs.
+Status write_pages(const dsl::Catalogue& catalogue, const PagesOptions& options);
+
+struct SheetOptions {
+    std::string output;                  // folder
+    std::string maps = "examples/maps";  // folders with normal_height.png and colour.png
+    std::string height;                  // a height map in place of those
+    std::vector<double> elevations = {60, 15};
+    int size = 128;  // pixels of a picture's side
+    std::string device;
+};
+// For each elevation one picture of all searches on all maps, each beside its errors.
+Status write_sheets(const dsl::Catalogue& catalogue, const SheetOptions& options);
+
 // Which maps a surface wears.
 struct MapOptions {
     std::string height, normal, colour;  // files; empty: made from the heights

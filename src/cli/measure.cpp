@@ -21,7 +21,7 @@ namespace {
 
 // For each map one sheet: a line per variant with its picture and its error map, at the middle view
 // of the plan.
-Status write_sheets(const dsl::Catalogue& catalogue, const measure::Plan& plan,
+Status write_case_sheets(const dsl::Catalogue& catalogue, const measure::Plan& plan,
                     const std::filesystem::path& folder) {
     const Result<vulkan::Device> device = vulkan::Device::create({plan.device, plan.validation});
     if (!device) return device.error();
@@ -91,7 +91,7 @@ Status measure_scene(const dsl::Catalogue& catalogue, const MeasureOptions& opti
           std::pair{"table.txt", table}})
         if (Status status = write_product((folder / name).string(), text, false); !status)
             return status;
-    if (Status status = write_sheets(catalogue, plan, folder); !status) return status;
+    if (Status status = write_case_sheets(catalogue, plan, folder); !status) return status;
     return write_product("-", table, false);
 }
 

@@ -30,43 +30,14 @@ void fill(maps::Image& image, int x, int y, int width, int height, const Rgb& co
         for (int column = x; column < x + width; ++column) set(image, column, row, colour);
 }
 
-// Where an error stands on the scale: 0 at its least, 1 at its most.
-float place_on_scale(float texels) {
-    if (!(texels > least_error)) return 0;
-    return std::min(1.0f, std::log(texels / least_error) / std::log(most_error / least_error));
+// Where an error stands on a scale: 0 at its least, 1 at its most.
+float place_on(const ErrorScale& scale, float error) {
+    if (!(error > scale.least)) return 0;
+    return std::min(1.0f, std::log(error / scale.least) / std::log(scale.most / scale.least));
 }
 
-// A swatch and its word.
-void draw_key(maps::Image& image, int x, int y, const Rgb& colour, const char* word) {
-    fill(image, x, y, 10, 8, colour);
-    draw_text(image, x + 14, y, word, ink, 1);
-}
-
-void draw_strip(maps::Image& image, int left) {
-    const int x = left + 8;
-    draw_text(image, x, 4, "texels", ink, 1);
-    const int top = 19, bottom = image.height - 34;  // middle of the scale's first and last row
-    for (int y = top; y <= bottom; ++y) {
-        const float place = static_cast<float>(bottom - y) / static_cast<float>(bottom - top);
-        const float error = least_error * std::pow(most_error / least_error, place);
-        fill(image, x, y, 14, 1, error_colour(error));
-    }
-    constexpr std::pair<float, const char*> ticks[] = {
-        {32, "32"}, {10, "10"}, {1, "1"}, {0.1f, "0.1"}, {0.01f, "0.01"}};
-    for (const auto& [error, word] : ticks) {
-        const float down = (1 - place_on_scale(error)) * static_cast<float>(bottom - top);
-        const int y = top + static_cast<int>(std::lround(down));
-        fill(image, x + 14, y, 4, 1, ink);
-        draw_text(image, x + 22, y - 3, word, ink, 1);
-    }
-    draw_key(image, x, image.height - 24, missed_colour, "missed");
-    draw_key(image, x, image.height - 12, invalid_colour, "NaN");
-}
-
-}  // namespace
-
-Rgb error_colour(float texels) {
-    const float at = place_on_scale(texels) * static_cast<float>(stops.size() - 1);
+Rgb colour_at(float place) {
+    const float at = place * static_cast<float>(stops.size() - 1);
     const std::size_t below = std::min(static_cast<std::size_t>(at), stops.size() - 2);
     const float share = at - static_cast<float>(below);
     Rgb colour;
@@ -75,21 +46,76 @@ Rgb error_colour(float texels) {
     return colour;
 }
 
-maps::Image error_map(const std::vector<measure::HitError>& errors, int width) {
-    const int height = width > 0 ? static_cast<int>(errors.size()) / width : 0;
+// A swatch and its word.
+void draw_key(maps::Image& image, int x, int y, const Rgb& colour, const char* word) {
+    fill(image, x, y, 10, 8, colour);
+    draw_text(image, x + 14, y, word, ink, 1);
+}
+
+// Fills rows of `width` by calling colour_of(index).
+template <typename ColourOf>
+maps::Image pixels_of(std::size_t count, int width, const ColourOf& colour_of) {
+    const int height = width > 0 ? static_cast<int>(count) / width : 0;
+    maps::Image image = maps::blank_image(width, height, 3, 8);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            set(image, x, y, colour_of(static_cast<std::size_t>(y * width + x)));
+    return image;
+}
+
+void copy_to(maps::Image& image, const maps::Image& part, int left) {
+    for (int y = 0; y < part.height; ++y)
+        for (int x = 0; x < part.width; ++x)
+            for (int c = 0; c < 3; ++c) image.at(left + x, y, c) = part.at(x, y, c);
+}
+
+}  // namespace
+
+Rgb error_colour(float texels) { return colour_at(place_on(texel_scale, texels)); }
+
+maps::Image error_pixels(const std::vector<measure::HitError>& errors, int width) {
+    return pixels_of(errors.size(), width, [&](std::size_t pixel) {
+        const measure::HitError& error = errors[pixel];
+        return error.invalid  ? invalid_colour
+               : error.missed ? missed_colour
+                              : error_colour(error.texels);
+    });
+}
+
+maps::Image error_pixels(const std::vector<float>& values, int width, const ErrorScale& scale) {
+    return pixels_of(values.size(), width, [&](std::size_t pixel) {
+        return std::isfinite(values[pixel]) ? colour_at(place_on(scale, values[pixel]))
+                                            : invalid_colour;
+    });
+}
+
+maps::Image error_strip(int height, const ErrorScale& scale, bool hits) {
     maps::Image image =
-        maps::blank_image(width + error_strip_width, std::max(height, least_map_height), 3, 8);
+        maps::blank_image(error_strip_width, std::max(height, least_map_height), 3, 8);
     fill(image, 0, 0, image.width, image.height, paper);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const measure::HitError& error = errors[static_cast<std::size_t>(y * width + x)];
-            set(image, x, y,
-                error.invalid  ? invalid_colour
-                : error.missed ? missed_colour
-                               : error_colour(error.texels));
-        }
+    constexpr int x = 8;
+    draw_text(image, x, 4, scale.unit, ink, 1);
+    const int top = 19, bottom = image.height - 34;  // middle of the scale's first and last row
+    for (int y = top; y <= bottom; ++y)
+        fill(image, x, y, 14, 1,
+             colour_at(static_cast<float>(bottom - y) / static_cast<float>(bottom - top)));
+    for (const auto& [error, word] : scale.ticks) {
+        const float down = (1 - place_on(scale, error)) * static_cast<float>(bottom - top);
+        const int y = top + static_cast<int>(std::lround(down));
+        fill(image, x + 14, y, 4, 1, ink);
+        draw_text(image, x + 22, y - 3, word, ink, 1);
     }
-    draw_strip(image, width);
+    if (hits) draw_key(image, x, image.height - 24, missed_colour, "missed");
+    draw_key(image, x, image.height - 12, invalid_colour, "NaN");
+    return image;
+}
+
+maps::Image error_map(const std::vector<measure::HitError>& errors, int width) {
+    const maps::Image pixels = error_pixels(errors, width), strip = error_strip(pixels.height);
+    maps::Image image = maps::blank_image(width + strip.width, strip.height, 3, 8);
+    fill(image, 0, 0, image.width, image.height, paper);
+    copy_to(image, pixels, 0);
+    copy_to(image, strip, width);
     return image;
 }
 

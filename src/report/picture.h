@@ -4,6 +4,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "generator/base/result.h"
@@ -31,10 +32,32 @@ inline constexpr float least_error = 0.01f, most_error = 32.0f;
 // yellow, brightness growing all the way, so that it reads without colour vision and in print.
 Rgb error_colour(float texels);
 
-// One pixel per error, rows of `width`, at the left top; at its right a strip with the scale.
-// Missed hits are missed_colour, whatever their error, and invalid pixels invalid_colour.  At least
-// `least_map_height` rows, for the strip.
+// What a colour scale spans, logarithmically, and where it has its numbers.
+struct ErrorScale {
+    const char* unit;
+    float least, most;
+    std::array<std::pair<float, const char*>, 5> ticks;
+};
+inline constexpr ErrorScale texel_scale = {
+    "texels",
+    least_error,
+    most_error,
+    {{{32, "32"}, {10, "10"}, {1, "1"}, {0.1f, "0.1"}, {0.01f, "0.01"}}}};
+// Differences of display-ready colours in steps of 8 bits.
+inline constexpr ErrorScale level_scale = {
+    "of 255", 1, 255, {{{255, "255"}, {64, "64"}, {16, "16"}, {4, "4"}, {1, "1"}}}};
+
+// One pixel per error, rows of `width`.  Missed hits are missed_colour, whatever their error, and
+// invalid pixels invalid_colour.
+maps::Image error_pixels(const std::vector<measure::HitError>& errors, int width);
+// The same of plain values; those not finite are invalid_colour.
+maps::Image error_pixels(const std::vector<float>& values, int width, const ErrorScale& scale);
+// A strip with the scale and, where `hits`, the colour of missed ones; the colour of what is
+// invalid. At least `least_map_height` rows.
 inline constexpr int error_strip_width = 76, least_map_height = 128;
+maps::Image error_strip(int height, const ErrorScale& scale = texel_scale, bool hits = true);
+
+// error_pixels at the left top, the strip at their right; at least `least_map_height` rows.
 maps::Image error_map(const std::vector<measure::HitError>& errors, int width);
 
 struct Tile {
