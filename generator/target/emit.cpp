@@ -86,6 +86,7 @@ Result<Emitted> emit(const ir::Program& program, const Target& target, const Emi
                 return status.error();
         return target.generate(program, target, options);
     }
+    if (Status status = check_levels(program.pixel, target); !status) return status.error();
     if (Status status = refuse_early(program, target); !status) return status.error();
     ir::Program legal = program;
     if (options.count_reads) passes::count_texture_reads(legal.pixel);

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "generator/passes/coarser_read.h"
+
 namespace intaglio {
 namespace {
 
@@ -23,6 +25,17 @@ std::string those_that_can(const Target& target, bool Capabilities::*ability) {
     return names;
 }
 
+Diagnostic level_refusal(const ir::Module& module, const ir::Origin& origin, const Target& target) {
+    Diagnostic error = target_limit(
+        module, origin,
+        fmt::format("{} has no texture reads with a given level other than 0", target.name));
+    error.notes.emplace_back(
+        "hint: level=0, nyquist=0, max_leaps=0 or shadow_leaps=0, where they are what gives it");
+    const std::string others = those_that_can(target, &Capabilities::texture_levels);
+    if (!others.empty()) error.notes.push_back(fmt::format("hint: {} can", others));
+    return error;
+}
+
 // `reads`: how many texture reads were seen so far.
 Status check_region(const ir::Module& module, const Target& target, const ir::Region& region,
                     int& reads) {
@@ -31,11 +44,9 @@ Status check_region(const ir::Module& module, const Target& target, const ir::Re
         const auto limit = [&](std::string sentence) {
             return target_limit(module, instruction.origin, std::move(sentence));
         };
-        const auto refuse = [&](std::string_view what, bool Capabilities::*ability,
-                                std::string_view instead = "") -> Status {
+        const auto refuse = [&](std::string_view what, bool Capabilities::*ability) -> Status {
             Diagnostic error = limit(fmt::format("{} has no {}", target.name, what));
             const std::string others = those_that_can(target, ability);
-            if (!instead.empty()) error.notes.push_back(fmt::format("hint: {}", instead));
             if (!others.empty()) error.notes.push_back(fmt::format("hint: {} can", others));
             return error;
         };
@@ -57,9 +68,7 @@ Status check_region(const ir::Module& module, const Target& target, const ir::Re
             !can.vertex_textures)
             return refuse("texture reads in the vertex stage", &Capabilities::vertex_textures);
         if (instruction.op == ir::Op::SampleLevel && !can.texture_levels)
-            return refuse("texture reads with a given level other than 0",
-                          &Capabilities::texture_levels,
-                          "level=0 and nyquist=0, where they are what gives it");
+            return level_refusal(module, instruction.origin, target);
         if (instruction.op == ir::Op::SampleGrad && !can.texture_gradients)
             return refuse("texture reads with given gradients", &Capabilities::texture_gradients);
         if (ir::is_sample(instruction.op) && !can.volume_textures &&
@@ -91,6 +100,13 @@ bool is_refusal(const Diagnostic& error) {
     constexpr std::string_view codes[] = {"target-limit", "d3d9-limit",   "d3d9-level", "d3d9-loop",
                                           "d3d9-op",      "d3d9-texture", "d3d9-stage"};
     return std::find(std::begin(codes), std::end(codes), error.code) != std::end(codes);
+}
+
+Status check_levels(const ir::Module& module, const Target& target) {
+    if (target.capabilities.texture_levels) return Done{};
+    const ir::Instruction* read = passes::find_coarser_read(module);
+    if (read == nullptr) return Done{};
+    return level_refusal(module, read->origin, target);
 }
 
 Status check_outputs(const ir::Module& module, const Target& target) {

@@ -9,6 +9,9 @@ namespace intaglio {
 // line.
 Status check_limits(ir::Module& module, const Target& target, Notes& notes);
 
+// The part of it that is known before loops are unrolled, which may take long: levels of reads.
+Status check_levels(const ir::Module& module, const Target& target);
+
 // The part of it that a target's own generator leaves to us: what a pixel may write at all.
 Status check_outputs(const ir::Module& module, const Target& target);
 

@@ -15,6 +15,7 @@
 #include "src/maps/bake_horizon.h"
 #include "src/maps/bake_max_mip.h"
 #include "src/maps/bake_phong.h"
+#include "src/maps/bake_summit.h"
 #include "src/maps/bake_view_dependent.h"
 #include "src/maps/png.h"
 
@@ -135,6 +136,12 @@ void add_bake(CLI::App& app, std::function<Status()>& chosen) {
                  [](Heights heights, const Options&) {
                      return below_each_other(maps::bake_max_mip(heights));
                  });
+    from_heights("summit", "Highest points of squares around each patch, levels below each other",
+                 [](Heights heights, const Options&) {
+                     return below_each_other(maps::bake_summit(heights));
+                 });
+    from_heights("patch", "The four heights at the corners of each patch",
+                 [](Heights heights, const Options&) { return maps::bake_patch(heights); });
     {
         const auto [kind, options] =
             from_heights("horizon", "How high the relief stands around each texel, by azimuth",

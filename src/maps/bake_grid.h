@@ -104,6 +104,17 @@ void walk_line(const Grid& grid, double x, double y, double dx, double dy, doubl
     }
 }
 
+// The nodes of a level of `fine` that node `at` of one of `coarse` touches: first, and one past the
+// last.
+struct Children {
+    int first, end;
+};
+inline Children children_of(int at, int fine, int coarse) {
+    const auto wide = [&](int node) { return static_cast<long long>(node) * fine; };
+    return {static_cast<int>(wide(at) / coarse),
+            static_cast<int>((wide(at + 1) + coarse - 1) / coarse)};
+}
+
 // Runs `row` for 0 to count - 1, shared out to as many threads as the machine has; each row is done
 // by one of them, so results do not depend on their number.
 void for_each_row(int count, const std::function<void(int)>& row);

@@ -8,17 +8,6 @@
 namespace intaglio::maps {
 namespace {
 
-// The nodes of a level of `fine` that node `at` of one of `coarse` touches: first, and one past the
-// last.
-struct Children {
-    int first, end;
-};
-Children children_of(int at, int fine, int coarse) {
-    const auto wide = [&](int node) { return static_cast<long long>(node) * fine; };
-    return {static_cast<int>(wide(at) / coarse),
-            static_cast<int>((wide(at + 1) + coarse - 1) / coarse)};
-}
-
 Image halved(const Image& fine) {
     Image coarse =
         blank_image(std::max(1, fine.width / 2), std::max(1, fine.height / 2), 2, fine.bits);

@@ -9,6 +9,7 @@
 #include "src/maps/bake_horizon.h"
 #include "src/maps/bake_max_mip.h"
 #include "src/maps/bake_phong.h"
+#include "src/maps/bake_summit.h"
 #include "src/maps/bake_view_dependent.h"
 
 namespace intaglio::measure {
@@ -25,6 +26,11 @@ vulkan::Texture with_levels(const std::vector<maps::Image>& levels) {
 Result<vulkan::Texture> one_level(const Result<maps::Image>& image) {
     if (!image) return image.error();
     return with_levels({*image});
+}
+
+Result<vulkan::Texture> all_levels(const Result<std::vector<maps::Image>>& levels) {
+    if (!levels) return levels.error();
+    return with_levels(*levels);
 }
 
 Result<vulkan::Texture> volume_texture(const Result<maps::Volume>& volume) {
@@ -52,12 +58,9 @@ const std::array rows = std::to_array<Row>({
      [](const maps::Image& h) { return one_level(maps::bake_cone(h, maps::ConeKind::Empty)); }},
     {"relaxed_cone_map",
      [](const maps::Image& h) { return one_level(maps::bake_cone(h, maps::ConeKind::Relaxed)); }},
-    {"max_mip_map",
-     [](const maps::Image& h) -> Result<vulkan::Texture> {
-         const Result<std::vector<maps::Image>> levels = maps::bake_max_mip(h);
-         if (!levels) return levels.error();
-         return with_levels(*levels);
-     }},
+    {"max_mip_map", [](const maps::Image& h) { return all_levels(maps::bake_max_mip(h)); }},
+    {"summit_map", [](const maps::Image& h) { return all_levels(maps::bake_summit(h)); }},
+    {"patch_map", [](const maps::Image& h) { return one_level(maps::bake_patch(h)); }},
     {"horizon_map", [](const maps::Image& h) { return horizon_texture(h, 0); }},
     {"horizon_diagonal_map", [](const maps::Image& h) { return horizon_texture(h, 1); }},
     {"distance_map", [](const maps::Image& h) { return volume_texture(maps::bake_distance(h)); }},

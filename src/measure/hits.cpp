@@ -91,6 +91,7 @@ HitStatistics summarize(const std::vector<HitError>& errors, int width) {
     for (std::size_t pixel = 0; pixel < errors.size(); ++pixel) {
         const HitError& error = errors[pixel];
         statistics.missed += error.missed;
+        statistics.far += error.texels > 2;
         statistics.invalid += error.invalid;
         statistics.shadow_wrong += error.shadow_wrong;
         if (error.invalid) continue;

@@ -44,6 +44,7 @@ struct HitStatistics {
     double median = 0, p95 = 0, p99 = 0, max = 0;  // texels, of the pixels that are not invalid
     double height_median = 0, height_max = 0;
     std::int64_t missed = 0;   // first hits
+    std::int64_t far = 0;      // more than two texels from the exact hit, or invalid
     std::int64_t invalid = 0;  // NaN or Inf
     std::int64_t shadow_wrong = 0;
     int worst_x = 0, worst_y = 0;  // where max is

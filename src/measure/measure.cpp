@@ -12,11 +12,13 @@
 namespace intaglio::measure {
 namespace {
 
-double median(std::vector<double> values) {
+// The value that a share of the others lies below: 0.5 is the median.
+double quantile(std::vector<double> values, double share) {
     if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(
+                                         share * static_cast<double>(values.size()));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
 }
 
 std::int64_t count_invalid(const vulkan::Picture& picture) {
@@ -72,8 +74,10 @@ Status time_rows(const Plan& plan, std::vector<vulkan::Program>& programs,
         }
     }
     for (std::size_t row = 0; row < programs.size(); ++row) {
-        results[row].nanoseconds = median(times[row]);
-        results[row].ratio = median(ratios[row]);
+        results[row].nanoseconds = quantile(times[row], 0.5);
+        results[row].ratio = quantile(ratios[row], 0.5);
+        results[row].ratio_low = quantile(ratios[row], 0.25);
+        results[row].ratio_high = quantile(ratios[row], 0.75);
     }
     return Done{};
 }

@@ -50,6 +50,7 @@ struct CaseResult {
     double nanoseconds = 0;            // per pixel, shaded, median of the rounds; 0: not timed
     double ratio =
         0;  // to the first row at the same map, view and light, median of the rounds' ratios
+    double ratio_low = 0, ratio_high = 0;  // the quartiles of those ratios: their spread
 };
 
 struct Measurement {

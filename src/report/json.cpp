@@ -73,6 +73,7 @@ Json row_of(const VariantRequest& request, const check::SpirvCost& cost,
 Json hits_of(const measure::HitStatistics& hits, int size) {
     Json json = {{"pixels", hits.pixels},
                  {"missed", hits.missed},
+                 {"far", hits.far},
                  {"invalid", hits.invalid},
                  {"shadow_wrong", hits.shadow_wrong}};
     const bool known = hits.pixels > hits.invalid;
@@ -110,7 +111,9 @@ Json case_of(const Plan& plan, const CaseResult& result, const MapArguments& map
             {"reads", {{"mean", result.reads_mean}, {"max", result.reads_max}}},
             {"time",
              {{"nanoseconds_per_pixel", timed ? Json(result.nanoseconds) : Json()},
-              {"ratio", timed ? Json(result.ratio) : Json()}}},
+              {"ratio", timed ? Json(result.ratio) : Json()},
+              {"ratio_low", timed ? Json(result.ratio_low) : Json()},
+              {"ratio_high", timed ? Json(result.ratio_high) : Json()}}},
             {"hits", hits_of(result.hits, plan.size)},
             {"narrow_hits", narrow_hits_of(result, plan.size)},
             {"invalid_colours", result.invalid_colours},

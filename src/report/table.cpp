@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -261,17 +262,19 @@ std::size_t most_merged(const Plan& plan) {
     return most * plan.lights.size();
 }
 
-std::string overviews(const Plan& plan, const Measurement& measurement) {
+// What a table says of a row on a map at an elevation.
+using Cell = std::function<std::string(int map, std::size_t row, double elevation)>;
+
+// A table for each map: a line for each row, a column for each elevation.
+std::string overview(const Plan& plan, const Measurement& measurement, std::string_view title,
+                     const Cell& cell) {
     constexpr std::size_t columns_at_once = 8;
     const std::vector<double> elevations = elevations_of(plan);
     if (elevations.size() < 2 || measurement.cases.empty()) return "";
     const auto [technique, knobs] = label_widths(plan, measurement);
     std::string text;
     for (std::size_t map = 0; map < plan.maps.size(); ++map) {
-        text +=
-            fmt::format("{}: {} by elevation of the view\n", plan.maps[map].name,
-                        most_merged(plan) > 1 ? "largest p95 over azimuths and lights, in texels,"
-                                              : "p95 hit error in texels");
+        text += fmt::format("{}: {} by elevation of the view\n", plan.maps[map].name, title);
         for (std::size_t first = 0; first < elevations.size(); first += columns_at_once) {
             const std::size_t last = std::min(elevations.size(), first + columns_at_once);
             Grid grid{{{"#", "technique", "knobs", "target"}}, 4};
@@ -282,15 +285,46 @@ std::string overviews(const Plan& plan, const Measurement& measurement) {
                 grid.lines.push_back({fmt::format("{}", row + 1),
                                       shortened(technique_of(request), technique),
                                       shortened(settings_of(request), knobs), request.target});
-                for (std::size_t i = first; i < last; ++i) {
-                    const auto p95 =
-                        largest_p95(measurement, static_cast<int>(map), row, elevations[i]);
-                    grid.lines.back().push_back(p95 ? texels(*p95) : "-");
-                }
+                for (std::size_t i = first; i < last; ++i)
+                    grid.lines.back().push_back(cell(static_cast<int>(map), row, elevations[i]));
             }
             text += print(grid) + "\n";
         }
     }
+    return text;
+}
+
+// The case of a row that took longest beside the first row, with the quartiles of its rounds.
+std::string largest_ratio(const Measurement& measurement, int map, std::size_t row,
+                          double elevation) {
+    const CaseResult* largest = nullptr;
+    for (const CaseResult& result : measurement.cases)
+        if (result.map == map && static_cast<std::size_t>(result.row) == row &&
+            result.view.elevation == elevation && result.nanoseconds > 0 &&
+            (largest == nullptr || result.ratio > largest->ratio))
+            largest = &result;
+    if (largest == nullptr) return "-";
+    return fmt::format("{} ({}..{})", number(largest->ratio, 2), number(largest->ratio_low, 2),
+                       number(largest->ratio_high, 2));
+}
+
+std::string overviews(const Plan& plan, const Measurement& measurement) {
+    const bool merged = most_merged(plan) > 1;
+    std::string text =
+        overview(plan, measurement,
+                 merged ? "largest p95 over azimuths and lights, in texels,"
+                        : "p95 hit error in texels",
+                 [&](int map, std::size_t row, double elevation) -> std::string {
+                     const auto p95 = largest_p95(measurement, map, row, elevation);
+                     return p95 ? texels(*p95) : "-";
+                 });
+    if (plan.rounds > 0)
+        text += overview(plan, measurement,
+                         merged ? "largest time ratio to row 1 (quartiles) over azimuths and lights"
+                                : "time ratio to row 1 (quartiles)",
+                         [&](int map, std::size_t row, double elevation) {
+                             return largest_ratio(measurement, map, row, elevation);
+                         });
     return text;
 }
 

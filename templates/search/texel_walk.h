@@ -14,6 +14,7 @@ namespace intaglio::templates {
 struct TexelWalk {
     dsl::float2 grid;    // cells of the map on each axis
     dsl::float2 way;     // +1 or -1: the direction of the ray on each axis
+    dsl::float2 corner;  // cell of the ray's start, by its corner of least coordinates
     dsl::float2 first;   // grid point where the cell of the ray's start begins, seen along the ray
     dsl::float2 within;  // where in that cell the ray starts, in [0, 1], seen along the ray
     dsl::float2 speed;   // cells per unit of t, not negative
@@ -33,6 +34,10 @@ struct TexelWalk {
     // other corners lie texel_step() from it.
     dsl::float2 near_texel(dsl::float2 crossed) const;
     dsl::float2 texel_step() const { return way / grid; }
+    // Texture coordinate of what a map read nearest has for the cell.
+    dsl::float2 cell(dsl::float2 crossed) const {
+        return (corner + 0.5f) / grid + way / grid * crossed;
+    }
     // The lines crossed once the walk has gone over the nearer of the two next ones.
     static dsl::float2 over_nearer(dsl::float2 crossed, dsl::float2 next);
 };
@@ -51,6 +56,7 @@ inline TexelWalk TexelWalk::along(const dsl::Ray& ray, dsl::float2 grid, float o
     const float2 pause = let("pause", float2(1.0f, 1.0f) / max(speed, float1(tiny)));
     return {grid,
             way,
+            corner,
             let("first", corner + (offset > 0 ? backward : float2(0.0f, 0.0f))),
             let("within", backward + way * (start - corner)),
             speed,

@@ -413,8 +413,8 @@ TEST_F(CommandLine, BakesEveryKindOfMap) {
     const auto normals = intaglio::maps::read_png(path("normal.png"));
     ASSERT_TRUE(normals.ok());
     EXPECT_EQ(normals->channels, 4);
-    for (const char* kind :
-         {"cone", "relaxed-cone", "max-mip", "horizon", "distance", "view-dependent"})
+    for (const char* kind : {"cone", "relaxed-cone", "max-mip", "summit", "patch", "horizon",
+                             "distance", "view-dependent"})
         EXPECT_EQ(run({"bake", kind, path("height.png"), "-o", path("baked.png")}).code, 0) << kind;
     EXPECT_EQ(run({"bake", "phong", "--size", "64x64", "-o", path("phong.png")}).code, 0);
     expect_refused({"bake", "horizon", path("height.png"), "-o", path("h.png"), "--azimuths", "7"},

@@ -111,7 +111,7 @@ const std::vector<std::pair<std::string, Knobs>> displaced_surfaces = {
     {"relief", {}},
     {"relief_secant", {}},
     {"contact_refinement", {}},
-    {"exact", {{"max_cells", "30"}}},
+    {"exact", {{"max_cells", "30"}, {"max_leaps", "0"}}},
     {"fur", {}}};
 
 // With nearest filtering a read gives the stored float, and every operation in these surfaces is

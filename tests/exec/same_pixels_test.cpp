@@ -39,6 +39,8 @@ const std::vector<Case> surfaces = {
     {"relief_secant", {}},
     {"contact_refinement", {}},
     {"exact", {}},
+    {"exact", {{"max_leaps", "0"}}},
+    {"search=none,shadow=exact", {}},
     {"fur", {}}};
 constexpr measure::Direction light{35, 130};
 
@@ -124,7 +126,7 @@ TEST(SamePixels, WithoutMipmapsShaderModel2DrawsWhatGlsl450Draws) {
         {"relief", {{"linear_steps", "6"}, {"binary_steps", "3"}}},
         {"relief_secant", {{"linear_steps", "5"}, {"secant_steps", "2"}}},
         {"contact_refinement", {{"coarse_steps", "5"}, {"fine_steps", "4"}}},
-        {"exact,output=displaced", {{"max_cells", "4"}}},
+        {"exact,output=displaced", {{"max_cells", "4"}, {"max_leaps", "0"}}},
         {"parallax_occlusion", {}},
         {"steep_parallax", steep},
         {"parallax_occlusion,shadow=march", shadow}};
@@ -152,7 +154,8 @@ TEST(SamePixels, RolledAndUnrolledAgree) {
         {{"relief", {}}, {"march", "halve"}},
         {{"relief_secant", {}}, {"march", "refine"}},
         {{"contact_refinement", {}}, {"march", "contact"}},
-        {{"exact", {{"max_cells", "16"}}}, {"walk"}}};
+        {{"exact", {{"max_cells", "3"}, {"max_leaps", "6"}}}, {"walk", "leap"}},
+        {{"exact", {{"max_cells", "16"}, {"max_leaps", "0"}}}, {"walk"}}};
     for (const auto& [c, loops] : with_loops)
         for (const char* target : {"glsl_450", "hlsl_5_0"}) {
             VariantRequest rolled =

@@ -93,7 +93,7 @@ TEST(Least, RefusesWhatIsFarTooLongAndStillSaysWhere) {
          "'march'",
          "templates/search/parallax_occlusion.cpp:"},
         {Profile::ps_2_b,
-         {"search=none,shadow=exact", {{"shadow_cells", "4096"}}},
+         {"search=none,shadow=exact", {{"shadow_cells", "4096"}, {"shadow_leaps", "0"}}},
          "'shadow'",
          "templates/shadow/exact.cpp:"},
     };

@@ -66,7 +66,7 @@ std::vector<Case> all_cases() {
              {"relief", {{"linear_steps", "4"}, {"binary_steps", "2"}}},
              {"relief_secant", {{"linear_steps", "4"}, {"secant_steps", "1"}}},
              {"contact_refinement", {{"coarse_steps", "4"}, {"fine_steps", "3"}}},
-             {"exact", {{"max_cells", "2"}}}})
+             {"exact", {{"max_cells", "2"}, {"max_leaps", "0"}}}})
         cases.push_back({search.surface + ",output=displaced", search.knobs});
     cases.push_back({"parallax_occlusion", {{"taps", "4"}, {"shininess", "2"}}});
     cases.push_back({"parallax_occlusion", {{"taps", "3"}, {"shininess", "8"}}});

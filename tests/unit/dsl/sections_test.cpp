@@ -44,7 +44,7 @@ ir::Texture flat_map(const std::string& name, float height) {
     map.levels = {std::vector<float>(16, height)};
     if (name == "cone_map" || name == "relaxed_cone_map")
         for (std::size_t alpha = 3; alpha < 16; alpha += 4) map.levels[0][alpha] = 1;
-    if (name == "max_mip_map") map.levels.push_back(std::vector<float>(4, height));
+    if (name == "max_mip_map" || name == "summit_map") map.levels.push_back(std::vector<float>(4, height));
     if (name == "distance_map") {
         map.depth = 32;
         map.levels = {{}};

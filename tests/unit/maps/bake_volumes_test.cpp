@@ -6,6 +6,7 @@
 #include "src/maps/bake_horizon.h"
 #include "src/maps/bake_max_mip.h"
 #include "src/maps/bake_phong.h"
+#include "src/maps/bake_summit.h"
 #include "src/maps/bake_view_dependent.h"
 #include "tests/unit/maps/relief_maps.h"
 
@@ -63,6 +64,49 @@ TEST(BakeMaxMip, IsExactWhereSizesHalve) {
     ASSERT_TRUE(file.ok());
     EXPECT_EQ(file->height, 8 + 4 + 2 + 1 + 1);
     EXPECT_EQ(file->at(3, 8 + 4 + 1, 0), third.at(3, 1, 0));
+}
+
+TEST(BakeSummit, IsTheHighestTexelOfEachSquare) {
+    std::mt19937 random(seed);
+    for (const ReliefMap& map : relief_maps(random)) {
+        const Image& heights = map.heights;
+        const Result<std::vector<Image>> levels = bake_summit(heights);
+        ASSERT_TRUE(levels.ok());
+        std::uniform_int_distribution<int> column(0, heights.width - 1), row(0, heights.height - 1);
+        const auto texel = [&](int x, int y) {
+            const int w = heights.width, h = heights.height;
+            return heights.at((x % w + w) % w, (y % h + h) % h);
+        };
+        for (int i = 0; i < 40; ++i) {
+            const int x = column(random), y = row(random);
+            for (int c = 0; c < 4; ++c) {
+                const int reach = summit_reach[static_cast<std::size_t>(c)];
+                float highest = 0;
+                for (int b = y - reach; b <= y + reach + 1; ++b)
+                    for (int a = x - reach; a <= x + reach + 1; ++a)
+                        highest = std::max(highest, texel(a, b));
+                ASSERT_EQ(levels->front().at(x, y, c), highest)
+                    << map.name << ", patch " << x << ", " << y << ", reach " << reach;
+            }
+        }
+        const float top = *std::max_element(heights.texels.begin(), heights.texels.end());
+        ASSERT_EQ(levels->back().texels, std::vector<float>(4, top)) << map.name;
+    }
+}
+
+TEST(BakePatch, HoldsTheCornersOfEachPatch) {
+    std::mt19937 random(seed);
+    for (const ReliefMap& map : relief_maps(random)) {
+        const Image& heights = map.heights;
+        const Result<Image> patches = bake_patch(heights);
+        ASSERT_TRUE(patches.ok());
+        for (int y = 0; y < heights.height; ++y)
+            for (int x = 0; x < heights.width; ++x)
+                for (int c = 0; c < 4; ++c)
+                    ASSERT_EQ(patches->at(x, y, c), heights.at((x + c % 2) % heights.width,
+                                                               (y + c / 2) % heights.height))
+                        << map.name;
+    }
 }
 
 TEST(BakeHorizon, AgreesWithAWalk) {

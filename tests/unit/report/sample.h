@@ -66,6 +66,8 @@ inline Sample sample(std::vector<measure::Direction> views = {{90, 0}, {30, 20}}
                     result.reads_max = 9;
                     result.nanoseconds = 12.5 * (row + 1);
                     result.ratio = row + 1;
+                    result.ratio_low = result.ratio * 0.9;
+                    result.ratio_high = result.ratio * 1.25;
                     made.measurement.cases.push_back(result);
                 }
             }

@@ -32,6 +32,16 @@ std::vector<std::string> rows_of(const measure::Plan& plan) {
     return rows;
 }
 
+TEST(Scene, TheExampleOfSpeedComparesWithRelaxedCones) {
+    const auto file = std::filesystem::path(INTAGLIO_EXAMPLE_MAPS) / "../03_speed/scene.toml";
+    const Result<measure::Plan> plan = read_scene(file);
+    ASSERT_TRUE(plan.ok()) << to_string(plan.error());
+    EXPECT_EQ(plan->maps.size(), 3u);
+    const std::vector<std::string> rows = rows_of(*plan);
+    EXPECT_EQ(rows.front(), "search=cone_relaxed,output=displaced glsl_450");
+    EXPECT_THAT(rows, ::testing::Contains("search=exact,output=displaced glsl_450"));
+}
+
 TEST(Scene, WhatIsNotSaidHasTheDefaultsOfThePlan) {
     const measure::Plan plan = plan_of(one_map + one_variant);
     const measure::Plan defaults;

@@ -15,6 +15,7 @@
 #include "src/maps/makers.h"
 #include "src/reference/trace.h"
 #include "templates/all_techniques.h"
+#include "tests/unit/maps/patch_textures.h"
 #include "tests/unit/reference/witness.h"
 
 namespace intaglio::templates::testing {
@@ -101,7 +102,10 @@ struct Draw {
 class Judge {
   public:
     Judge(ir::Module module, const HeightField& field)
-        : module_(std::move(module)), heights_(texture_of(field)), evaluator_(module_) {
+        : module_(std::move(module)),
+          heights_(texture_of(field)),
+          baked_(field.width, field.height, field.heights),
+          evaluator_(module_) {
         colour_.levels = {{0.5f, 0.25f, 0.125f, 1.0f}};
         flat_.levels = {{0.5f, 0.5f, 1.0f, 1.0f}};
     }
@@ -123,16 +127,19 @@ class Judge {
         for (const ir::Uniform& uniform : module_.uniforms)
             environment.uniforms.push_back({uniforms.at(uniform.name)});
         for (const ir::Sampler& sampler : module_.samplers)
-            environment.samplers.push_back(sampler.name == "height_map" ? &heights_
-                                           : sampler.name == "colour_map"
-                                               ? &colour_
-                                               : (draw.normal_map ? draw.normal_map : &flat_));
+            environment.samplers.push_back(
+                sampler.name == "height_map"       ? &heights_
+                : sampler.name == "colour_map"     ? &colour_
+                : baked_.named(sampler.name)       ? baked_.named(sampler.name)
+                : draw.normal_map                  ? draw.normal_map
+                                                   : &flat_);
         return evaluator_.run(environment, draw.precision);
     }
 
   private:
     ir::Module module_;
     ir::Texture heights_, colour_, flat_;
+    maps::PatchTextures baked_;
     ir::Evaluator evaluator_;
 };
 

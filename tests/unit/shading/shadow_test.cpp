@@ -45,8 +45,10 @@ struct Agreement {
 void expect_exact(Random& random, const HeightField& field, double lowest, double largest_scale,
                   int points, Agreement& agreement) {
     constexpr double bias = 1.0 / 4096;
-    const Visibility exact("exact", field, {{"shadow_cells", "4096"}});
+    const Visibility leaping("exact", field, {{"shadow_cells", "4096"}});
+    const Visibility walking("exact", field, {{"shadow_cells", "4096"}, {"shadow_leaps", "0"}});
     for (int i = 0; i < points; ++i) {
+        const Visibility& exact = i % 2 == 0 ? leaping : walking;
         Draw draw{field};
         // As the shader gets them.
         draw.uv = {static_cast<float>(random.real(0, 1)), static_cast<float>(random.real(0, 1))};
@@ -119,8 +121,8 @@ TEST(ExactShadow, BeyondItsCellsTheRayIsFree) {
     draw.uv = {0.25, 0.5};
     draw.to_light = direction(10, 0);
     draw.scale = 0.1;
-    EXPECT_EQ(Visibility("exact", wall, {{"shadow_cells", "64"}})(draw, 0), 0);
-    EXPECT_EQ(Visibility("exact", wall, {{"shadow_cells", "4"}})(draw, 0), 1);
+    EXPECT_EQ(Visibility("exact", wall, {{"shadow_cells", "64"}, {"shadow_leaps", "0"}})(draw, 0), 0);
+    EXPECT_EQ(Visibility("exact", wall, {{"shadow_cells", "4"}, {"shadow_leaps", "0"}})(draw, 0), 1);
 }
 
 TEST(ExactShadow, APointReportedBelowTheSurfaceIsNotInItsOwnShadow) {
@@ -131,9 +133,9 @@ TEST(ExactShadow, APointReportedBelowTheSurfaceIsNotInItsOwnShadow) {
     EXPECT_EQ(Visibility("exact", flat)(draw, 0.55), 1) << "nor one above it";
 }
 
-TEST(ExactShadow, ReadsTwiceForEachTexelLine) {
+TEST(ExactShadow, WithoutMapsReadsTwiceForEachTexelLine) {
     const HeightField flat = field_of(64, 64, [](double, double) { return 0.0; });
-    const Visibility exact("exact", flat);
+    const Visibility exact("exact", flat, {{"shadow_leaps", "0"}});
     Draw draw{flat};
     draw.uv = {0.1, 0.1};
     draw.to_light = direction(45, 0);

@@ -72,7 +72,8 @@ TEST(ShaderModel2, RefusesWhatTheProfilesCannotSay) {
         refusal(reading("1.5"), "hlsl_2_0"),
         "templates/search/mine.cpp:7: error: hlsl_2_0 has no texture reads with a given level "
         "other than 0 [target-limit]\n"
-        "  hint: level=0 and nyquist=0, where they are what gives it\n"
+        "  hint: level=0, nyquist=0, max_leaps=0 or shadow_leaps=0, where they are what gives "
+        "it\n"
         "  hint: hlsl_5_0, hlsl_3_0 can");
 
     constexpr std::string_view march = R"(

@@ -68,6 +68,7 @@ Map map_of(int width, int height, const std::function<double(int, int)>& height_
             normals.push_back(texel);
         }
     map.height = texture_of(width, height, heights);
+    map.baked.emplace(width, height, map.field.heights);
     map.normal = texture_of(width, height, normals);
     return map;
 }
@@ -147,7 +148,10 @@ Answer Asked::operator()(const Map& map, const Ray& ray) const {
                                             : vector_of({static_cast<double>(map.height.width),
                                                          static_cast<double>(map.height.height)})});
     for (const ir::Sampler& sampler : module_.samplers)
-        environment.samplers.push_back(sampler.name == "height_map" ? &map.height : &map.normal);
+        environment.samplers.push_back(sampler.name == "height_map" ? &map.height
+                                       : map.baked->named(sampler.name)
+                                           ? map.baked->named(sampler.name)
+                                           : &map.normal);
     const ir::Evaluation result = evaluator_->run(environment, ir::Precision::Single);
     const std::array<double, 4>& out = result.outputs[0];
     return {{out[0], out[1]}, out[2], out[3], result.texture_reads, result.instructions};

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,13 +14,15 @@
 #include "generator/dsl/surface.h"
 #include "generator/ir/evaluate.h"
 #include "src/reference/trace.h"
+#include "tests/unit/maps/patch_textures.h"
 
 namespace intaglio::templates {
 
-// One relief as a texture of floats with box-filtered mip levels, as normals, and as the
-// reference's field.
+// One relief as a texture of floats with box-filtered mip levels, as normals, as what the exact
+// search has baked, and as the reference's field.
 struct Map {
     ir::Texture height, normal;
+    std::optional<maps::PatchTextures> baked;
     reference::HeightField field;
 };
 

@@ -8,7 +8,8 @@
 namespace intaglio::templates {
 namespace {
 
-const Knobs far_reaching = {{"max_cells", "4096"}};
+// Over squares of patches by the baked maps, and patch by patch.
+const Knobs ways[] = {{{"max_cells", "4096"}}, {{"max_cells", "4096"}, {"max_leaps", "0"}}};
 
 struct Errors {
     int missed = 0, lost = 0;
@@ -38,8 +39,13 @@ double float_bound(const Map& map, const Ray& ray) {
     return std::ldexp(std::max(map.field.width, map.field.height) + path, -22);
 }
 
-TEST(Exact, MissesNothingOnAnyMakerAtAnyAngle) {
-    const Asked exact("exact", far_reaching);
+class Exact : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Ways, Exact, testing::Values(0, 1), [](const auto& test) {
+    return test.param == 0 ? std::string("Leaping") : std::string("Walking");
+});
+
+TEST_P(Exact, MissesNothingOnAnyMakerAtAnyAngle) {
+    const Asked exact("exact", ways[GetParam()]);
     unsigned state = 7;
     for (const maps::Maker& maker : maps::makers()) {
         const Map map = map_named(std::string(maker.name));
@@ -58,8 +64,8 @@ TEST(Exact, MissesNothingOnAnyMakerAtAnyAngle) {
     }
 }
 
-TEST(Exact, MissesNothingOnNoiseOfAnySizeAtAnyScale) {
-    const Asked exact("exact", far_reaching);
+TEST_P(Exact, MissesNothingOnNoiseOfAnySizeAtAnyScale) {
+    const Asked exact("exact", ways[GetParam()]);
     unsigned state = 11;
     const std::pair<int, int> sizes[] = {{1, 1}, {1, 64}, {64, 1}, {2, 2}, {3, 5}, {37, 64}};
     for (const auto& [width, height] : sizes) {
@@ -83,8 +89,8 @@ TEST(Exact, MissesNothingOnNoiseOfAnySizeAtAnyScale) {
 
 // Along texel rows and columns, along diagonals, from texel centres, edges and corners: where lines
 // are met at the same t, or never.
-TEST(Exact, MissesNothingOnRaysThroughCornersAndAlongLines) {
-    const Asked exact("exact", far_reaching);
+TEST_P(Exact, MissesNothingOnRaysThroughCornersAndAlongLines) {
+    const Asked exact("exact", ways[GetParam()]);
     unsigned state = 13;
     const Map map = noise_map(16, 16, state);
     for (double azimuth = 0; azimuth < 360; azimuth += 45)
@@ -107,8 +113,8 @@ TEST(Exact, MissesNothingOnRaysThroughCornersAndAlongLines) {
 
 // On a map whose size is no power of two coordinates far from 0 would round to another place in
 // their texel; the height does not suffer from the rounding of the answer's own coordinate.
-TEST(Exact, TilesRepeat) {
-    const Asked exact("exact", far_reaching);
+TEST_P(Exact, TilesRepeat) {
+    const Asked exact("exact", ways[GetParam()]);
     unsigned state = 17;
     const Map map = noise_map(37, 37, state);
     for (int i = 0; i < 200; ++i) {
@@ -121,7 +127,7 @@ TEST(Exact, TilesRepeat) {
     }
 }
 
-TEST(Exact, ARayThatStartsInsideEndsThere) {
+TEST(ExactSearch, ARayThatStartsInsideEndsThere) {
     const Map top = map_named("flat1");
     const Asked lower("exact", {}, 1, 2);
     const Ray ray{{0.3, 0.6}, direction(30, 200)};
@@ -131,24 +137,25 @@ TEST(Exact, ARayThatStartsInsideEndsThere) {
     EXPECT_EQ(answer.uv.y, 0.6f);
 }
 
-TEST(Exact, SaysWhereItsReachEnds) {
+TEST(ExactSearch, SaysWhereItsReachEnds) {
     const Map floor = map_named("flat0");
     const Ray ray{{0.3, 0.6}, direction(20, 30)};
     const double path_x = ray.view.x / ray.view.z * ray.scale * 64,
                  path_y = ray.view.y / ray.view.z * ray.scale * 64;
     const int least = static_cast<int>(path_x) + static_cast<int>(path_y) - 1;
     const int enough = least + 4;
-    const Answer near = Asked("exact", {{"max_cells", std::to_string(least)}})(floor, ray);
+    const Answer near = Asked("exact", {{"max_cells", std::to_string(least)}, {"max_leaps", "0"}})(floor, ray);
     EXPECT_EQ(near.found, 0) << "the ray crosses more cells";
     EXPECT_EQ(near.reads, 4 * least);
     EXPECT_LT(parameter_of(ray, near.uv), 1);
-    const Answer far = Asked("exact", {{"max_cells", std::to_string(enough)}})(floor, ray);
+    const Answer far = Asked("exact", {{"max_cells", std::to_string(enough)}, {"max_leaps", "0"}})(floor, ray);
     EXPECT_EQ(far.found, 1);
     EXPECT_NEAR(parameter_of(ray, far.uv), 1, 1e-6);
 }
 
-TEST(Exact, SearchesInSectionsAsInOne) {
-    const Asked whole("exact"), upper("exact", {}, 0, 2), lower("exact", {}, 1, 2);
+TEST_P(Exact, SearchesInSectionsAsInOne) {
+    const Asked whole("exact", ways[GetParam()]), upper("exact", ways[GetParam()], 0, 2),
+        lower("exact", ways[GetParam()], 1, 2);
     const Map map = map_named("cobbles");
     unsigned state = 19;
     int in_each[2] = {0, 0};

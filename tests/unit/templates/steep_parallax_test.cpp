@@ -136,7 +136,7 @@ TEST(SteepParallax, TexelByTexelEndsWhereItsStepsEndUnlessTheLevelIsChosen) {
 
 // One read a line: what is lost lies between two lines, where the filtered relief bends but little.
 TEST(SteepParallax, FromLineToLineItLosesLessThanInSteps) {
-    const Asked lines("steep_parallax", {{"stride", "2"}, {"max_steps", "512"}}), exact("exact"),
+    const Asked lines("steep_parallax", {{"stride", "2"}, {"max_steps", "512"}}), exact("exact", {{"max_leaps", "0"}}),
         steps("steep_parallax", {{"stride", "1"}, {"min_steps", "1"}, {"max_steps", "512"}});
     for (const char* maker : {"spikes", "cobbles", "text", "smooth"}) {
         const Map map = map_named(maker);

@@ -126,6 +126,7 @@ Result<PixelStage> smallest_pixel_stage(const ir::Program& recorded, Profile pro
                            fmt::format("{} is no profile of pixel shaders; those are ps_2_0, "
                                        "ps_2_a, ps_2_b and ps_3_0",
                                        name_of(profile)));
+    if (Status status = check_levels(recorded.pixel, profile); !status) return status.error();
     std::optional<PixelStage> best;
     for (const LoopPlan& plan : loop_plans(recorded.pixel, profile)) {
         auto stage = attempt(recorded, profile, plan);

@@ -323,10 +323,7 @@ Result<Vec> Lowering::sample(const ir::Instruction& instruction) {
             while (operands[0].size() < 3) operands[0].push_back(constant(0));
             operands[0].push_back(level);
         } else if (!is(level, 0)) {
-            return refusal("d3d9-level", instruction,
-                           fmt::format("{} cannot read {} at a mip level of the shader's choice; "
-                                       "set level=0 (and nyquist=0), or use ps_3_0",
-                                       name_of(profile_), sampler.name));
+            return refuse_level(module_, instruction, profile_);
         } else {
             notes_.push_back(
                 fmt::format("{} is read by texld, at the level of the coordinate's "

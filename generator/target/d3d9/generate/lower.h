@@ -16,6 +16,10 @@ namespace intaglio::d3d9 {
 // IR's meaning.
 Result<Graph> lower(const ir::Module& module, Profile profile, std::vector<std::string>& notes);
 
+// Refuses [d3d9-level] as lower() does, from the recorded module, before unrolling takes its time.
+Status check_levels(const ir::Module& module, Profile profile);
+Diagnostic refuse_level(const ir::Module& module, const ir::Instruction& read, Profile profile);
+
 // What each output of a pixel module is.
 std::vector<OutputKind> output_kinds_of(const ir::Module& module);
 
