@@ -125,11 +125,9 @@ Result<std::vector<Observation>> observe(const dsl::Catalogue& catalogue, const 
             if (!is_refusal(variant.error())) return variant.error();
             observation.refusal = variant.error().message;
         } else {
-            if (profile_of(*variant->target)) {
-                const auto explained = explain_variant(catalogue, row);
-                if (!explained) return explained.error();
-                add_lines(observation, *explained);
-            }
+            const auto explained = explain_variant(catalogue, row);
+            if (!explained) return explained.error();
+            add_lines(observation, *explained);
             place.push_back(observations.size());
             plan.rows.push_back(row);
         }

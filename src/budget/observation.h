@@ -21,7 +21,7 @@ struct Observation {
     std::map<std::string, double> values;
     // Of an error: which command shows its worst case; may be empty.
     std::map<std::string, std::string> commands;
-    // Slots of the pixel stage by "step at file:line", Direct3D 9 only.
+    // Slots or operations of the pixel stage (variant/explain.h) by "step at file:line".
     std::map<std::string, double> lines;
     std::string refusal;  // of a variant that its target does not hold; then nothing else is known
 

@@ -38,22 +38,21 @@ bool applies(const Metric& metric, const std::string& target_name) {
 std::string dearest_line(const Observation& now, const Observation* before) {
     std::string dearest;
     double most = 0, was = 0;
-    for (const auto& [line, slots] : now.lines) {
+    for (const auto& [line, spent] : now.lines) {
         double old = 0;
         if (before)
             if (const auto found = before->lines.find(line); found != before->lines.end())
                 old = found->second;
-        if (slots - old > most) {
-            most = slots - old;
+        if (spent - old > most) {
+            most = spent - old;
             was = old;
             dearest = line;
         }
     }
     if (dearest.empty()) return {};
     const double is = now.lines.at(dearest);
-    return before && !before->lines.empty()
-               ? fmt::format("{}: {:g} slots, before {:g}", dearest, is, was)
-               : fmt::format("{}: {:g} slots", dearest, is);
+    return before && !before->lines.empty() ? fmt::format("{}: {:g}, before {:g}", dearest, is, was)
+                                            : fmt::format("{}: {:g}", dearest, is);
 }
 
 Finding finding_of(const Observation& now, const Observation* before, const Metric& metric) {
@@ -67,7 +66,7 @@ Finding finding_of(const Observation& now, const Observation* before, const Metr
     if (const auto command = now.commands.find(finding.metric); command != now.commands.end())
         finding.command = command->second;
     const bool grew = finding.before && finding.after && *finding.after > *finding.before;
-    if (grew && metric.of == Metric::Of::Direct3D9 && !metric.is_error)
+    if (grew && !metric.is_error && metric.name != "reads")
         finding.where = dearest_line(now, before);
     return finding;
 }
@@ -79,8 +78,7 @@ void apply(Finding& finding, const Bound& bound, const Observation& now, const O
         finding.kind = kind;
         finding.sentence = std::move(sentence);
         finding.budget_line = bound.line;
-        if (finding.where.empty() && !metric.is_error && metric.of == Metric::Of::Direct3D9)
-            finding.where = dearest_line(now, before);
+        if (finding.where.empty() && !metric.is_error) finding.where = dearest_line(now, before);
     };
     if (!finding.after) {
         say(Finding::Kind::Unknown, fmt::format("{} is not known", metric.name));

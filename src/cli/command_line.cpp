@@ -174,7 +174,7 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
     {
         auto options = std::make_shared<ExplainOptions>();
         CLI::App* command = app.add_subcommand(
-            "explain", "Who spends the slots of a Direct3D 9 variant, by step and line");
+            "explain", "Who spends the slots or operations of a variant, by step and line");
         add_variant(*command, options->variant);
         add_pass(*command, options->variant);
         command->add_flag("--json", options->json, "For programs");

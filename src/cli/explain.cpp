@@ -1,4 +1,4 @@
-// `intaglio explain`: who spends the slots of a Direct3D 9 variant.
+// `intaglio explain`: who spends what a variant costs.
 #include "src/variant/explain.h"
 
 #include <algorithm>
@@ -26,9 +26,22 @@ bool is_known(const ExplainedStage& stage, const d3d9::Headroom& row) {
 
 constexpr std::size_t name_width = 52;
 
-std::string spent_text(const d3d9::Explanation& explanation) {
-    std::string text =
-        fmt::format("  {:<{}} arithmetic  texture\n", "slots by step and line", name_width);
+std::string_view stage_word(const ExplainedStage& stage) {
+    return stage.stage == ir::Stage::Pixel ? "pixel" : "vertex";
+}
+
+// What is counted.
+std::string_view unit_of(const ExplainedStage& stage) {
+    return stage.profile ? "slots" : "operations";
+}
+
+// Whether texture reads have a level that is known.
+bool has_levels(const ExplainedStage& stage) { return stage.profile && !stage.only_slots; }
+
+std::string spent_text(const ExplainedStage& stage) {
+    const d3d9::Explanation& explanation = stage.explanation;
+    std::string text = fmt::format("  {:<{}} arithmetic  texture\n",
+                                   fmt::format("{} by step and line", unit_of(stage)), name_width);
     for (const d3d9::Spent& step : explanation.steps) {
         text += fmt::format("  {:<{}} {:>10} {:>8}\n", step_name(step.step), name_width,
                             step.slots.arithmetic, step.slots.texture);
@@ -41,6 +54,7 @@ std::string spent_text(const d3d9::Explanation& explanation) {
 }
 
 std::string headroom_text(const ExplainedStage& stage) {
+    if (!stage.profile) return {};
     std::string text =
         fmt::format("  {:<30} {:>6} {:>6} {:>6}\n", "resource", "used", "limit", "left");
     for (const d3d9::Headroom& row : stage.explanation.headroom)
@@ -54,11 +68,11 @@ std::string headroom_text(const ExplainedStage& stage) {
 
 std::string reads_text(const ExplainedStage& stage) {
     if (stage.explanation.reads.empty()) return {};
-    std::string text = fmt::format("  {:<7} {:<16} {}\n", stage.only_slots ? "" : "level",
+    std::string text = fmt::format("  {:<7} {:<16} {}\n", has_levels(stage) ? "level" : "",
                                    "texture read", "step and line");
     for (const d3d9::TextureRead& read : stage.explanation.reads)
         text += fmt::format("  {:<7} {:<16} {}, {}\n",
-                            stage.only_slots ? std::string() : fmt::format("{}", read.level),
+                            has_levels(stage) ? fmt::format("{}", read.level) : std::string(),
                             read.sampler, step_name(read.step), place_of(read.file, read.line));
     return text;
 }
@@ -71,11 +85,10 @@ std::string text_of(const ExplainedVariant& variant, const std::string& target) 
     if (variant.refusal) text += fmt::format("refused: {}\n", variant.refusal->message);
     for (const ExplainedStage& stage : variant.stages) {
         const d3d9::Slots& slots = stage.explanation.slots;
-        text += fmt::format("\n{} stage, {}: {} arithmetic and {} texture slots\n",
-                            is_pixel(stage.profile) ? "pixel" : "vertex", name_of(stage.profile),
-                            slots.arithmetic, slots.texture);
-        for (const std::string& part :
-             {spent_text(stage.explanation), headroom_text(stage), reads_text(stage)})
+        text += fmt::format("\n{} stage, {}: {} arithmetic and {} texture {}\n", stage_word(stage),
+                            stage.profile ? name_of(*stage.profile) : std::string_view(target),
+                            slots.arithmetic, slots.texture, unit_of(stage));
+        for (const std::string& part : {spent_text(stage), headroom_text(stage), reads_text(stage)})
             if (!part.empty()) text += "\n" + part;
     }
     return text;
@@ -92,9 +105,14 @@ ordered_json json_of(const d3d9::Spent& spent) {
 ordered_json json_of(const ExplainedStage& stage) {
     const d3d9::Explanation& explanation = stage.explanation;
     ordered_json json = {
-        {"profile", name_of(stage.profile)},    {"arithmetic", explanation.slots.arithmetic},
-        {"texture", explanation.slots.texture}, {"steps", ordered_json::array()},
-        {"lines", ordered_json::array()},       {"resources", ordered_json::array()},
+        {"stage", stage_word(stage)},
+        {"profile", stage.profile ? ordered_json(name_of(*stage.profile)) : ordered_json()},
+        {"counted", unit_of(stage)},
+        {"arithmetic", explanation.slots.arithmetic},
+        {"texture", explanation.slots.texture},
+        {"steps", ordered_json::array()},
+        {"lines", ordered_json::array()},
+        {"resources", ordered_json::array()},
         {"reads", ordered_json::array()}};
     for (const d3d9::Spent& step : explanation.steps)
         json["steps"].push_back({{"step", step.step},
@@ -109,7 +127,7 @@ ordered_json json_of(const ExplainedStage& stage) {
                                          {"left", row.left()}});
     for (const d3d9::TextureRead& read : explanation.reads) {
         ordered_json row = {{"sampler", read.sampler}};
-        if (!stage.only_slots) row["level"] = read.level;
+        if (has_levels(stage)) row["level"] = read.level;
         row.update({{"step", read.step}, {"file", read.file}, {"line", read.line}});
         json["reads"].push_back(std::move(row));
     }

@@ -10,9 +10,12 @@
 
 namespace intaglio {
 
-// One stage of a Direct3D 9 variant.
+// One stage of a variant.  Of Direct3D 9 it counts slots.  Of a language it counts operations of
+// the IR after all passes, each vector operation and each branch once, a loop's body once; it has
+// no headroom, and its reads no level.
 struct ExplainedStage {
-    d3d9::Profile profile = d3d9::Profile::ps_2_0;
+    ir::Stage stage = ir::Stage::Pixel;
+    std::optional<d3d9::Profile> profile;  // none: a language
     d3d9::Explanation explanation;
     bool only_slots = false;  // refused for want of registers: their numbers mean nothing
 };
@@ -25,8 +28,7 @@ struct ExplainedVariant {
     Notes notes;
 };
 
-// Errors: those of make_variant but for refusals by budget, and "not-explained" for targets other
-// than the Direct3D 9 profiles.
+// Errors: those of make_variant but for refusals by budget.
 Result<ExplainedVariant> explain_variant(const dsl::Catalogue& catalogue,
                                          const VariantRequest& request);
 

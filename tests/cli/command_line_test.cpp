@@ -154,9 +154,6 @@ TEST_F(CommandLine, RefusesWhatAProfileHasNot) {
          "[no-bytecode]\n"},
         {{"emit", "parallax_occlusion", "-T", "ps_2_0", "--loop", "march=loop"},
          "error: the loop march cannot stay a loop: ps_2_0 has none [target-limit]\n"},
-        {{"explain", "fur", "-T", "glsl_450"},
-         "error: explain counts the slots of ps_2_0, ps_2_a, ps_2_b, ps_3_0, vs_2_0 and vs_3_0; "
-         "what glsl_450 costs, `intaglio validate` says [not-explained]\n"},
         {{"run", "fur", "-T", "vs_3_0", "--maker", "fur", "-o", path("p.png")},
          "error: vs_3_0 is a vertex stage alone; run the surface on ps_3_0, which comes with it "
          "[not-runnable]\n"},

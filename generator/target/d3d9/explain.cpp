@@ -51,19 +51,12 @@ std::string sampler_of(const Shader& shader, const Instruction& instruction) {
 
 }  // namespace
 
-Explanation explain(const Shader& shader) {
+Explanation sum_up(const std::vector<Spent>& instructions) {
     Explanation result;
-    const std::vector<int> levels = dependent_levels(shader);
-    for (std::size_t i = 0; i < shader.instructions.size(); ++i) {
-        const Instruction& instruction = shader.instructions[i];
-        const Slots slots = slots_of(instruction);
-        const Spent spent = spent_at(shader, instruction.origin);
-        add(result.slots, slots);
-        charge(result.steps, {spent.step, {}, 0, {}}, slots);
-        charge(result.lines, spent, slots);
-        const std::string sampler = sampler_of(shader, instruction);
-        if (!sampler.empty())
-            result.reads.push_back({levels[i], sampler, spent.step, spent.file, spent.line});
+    for (const Spent& spent : instructions) {
+        add(result.slots, spent.slots);
+        charge(result.steps, {spent.step, {}, 0, {}}, spent.slots);
+        charge(result.lines, {spent.step, spent.file, spent.line, {}}, spent.slots);
     }
     std::stable_sort(result.steps.begin(), result.steps.end(), more);
     const auto rank = [&](const Spent& row) {
@@ -74,6 +67,24 @@ Explanation explain(const Shader& shader) {
     std::stable_sort(result.lines.begin(), result.lines.end(), [&](const Spent& a, const Spent& b) {
         return rank(a) != rank(b) ? rank(a) < rank(b) : more(a, b);
     });
+    return result;
+}
+
+Explanation explain(const Shader& shader) {
+    std::vector<Spent> instructions;
+    std::vector<TextureRead> reads;
+    const std::vector<int> levels = dependent_levels(shader);
+    for (std::size_t i = 0; i < shader.instructions.size(); ++i) {
+        const Instruction& instruction = shader.instructions[i];
+        Spent spent = spent_at(shader, instruction.origin);
+        spent.slots = slots_of(instruction);
+        const std::string sampler = sampler_of(shader, instruction);
+        if (!sampler.empty())
+            reads.push_back({levels[i], sampler, spent.step, spent.file, spent.line});
+        instructions.push_back(std::move(spent));
+    }
+    Explanation result = sum_up(instructions);
+    result.reads = std::move(reads);
     result.headroom = headroom(shader);
     return result;
 }

@@ -35,4 +35,7 @@ struct Explanation {
 };
 Explanation explain(const Shader& shader);
 
+// Sums one row an instruction by step and by line: slots, steps and lines of an explanation.
+Explanation sum_up(const std::vector<Spent>& instructions);
+
 }  // namespace intaglio::d3d9

@@ -183,7 +183,7 @@ TEST_F(BudgetFile, TheLineThatSpendsMoreIsNamed) {
     now.lines = {{"march at a.cpp:5", 20}, {"shadow at b.cpp:9", 14}};
     now.values["arithmetic"] = 34;
     const Verdict verdict = judge(budgets, {now}, {before}, "2026-01-01");
-    EXPECT_EQ(finding(verdict, "arithmetic")->where, "shadow at b.cpp:9: 14 slots, before 10");
+    EXPECT_EQ(finding(verdict, "arithmetic")->where, "shadow at b.cpp:9: 14, before 10");
     EXPECT_THAT(to_text(verdict),
                 HasSubstr("over: fur taps=8 on ps_2_0: arithmetic grew from 30 to 34 slots"));
     EXPECT_THAT(to_github(verdict), HasSubstr("::error file=b.cpp,line=9,title=intaglio check::"));

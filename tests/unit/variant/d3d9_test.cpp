@@ -115,8 +115,39 @@ TEST(Direct3D9Variant, OneThatFitsIsExplainedAsItIsEmitted) {
         EXPECT_EQ(explained->stages[stage].explanation.slots,
                   (d3d9::Slots{used.arithmetic, used.texture}));
     }
-    EXPECT_EQ(explain_variant(catalogue(), request("fur", "glsl_450")).error().code,
-              "not-explained");
+}
+
+TEST(ExplainedVariant, ALanguageCountsTheOperationsOfItsTextByStepAndLine) {
+    for (const char* target : {"glsl_450", "essl_100", "hlsl_2_b", "spirv"}) {
+        const auto count = [&](const char* taps) {
+            const auto explained = explain_variant(
+                catalogue(),
+                request("parallax_occlusion,output=displaced", target, {{"taps", taps}}));
+            EXPECT_TRUE(explained.ok()) << to_string(explained.error());
+            const d3d9::Explanation& pixel = explained->stages.front().explanation;
+            EXPECT_EQ(explained->stages.front().stage, ir::Stage::Pixel);
+            // Steps and lines add up to the whole.
+            d3d9::Slots steps, lines;
+            for (const d3d9::Spent& step : pixel.steps) {
+                steps.arithmetic += step.slots.arithmetic;
+                steps.texture += step.slots.texture;
+            }
+            for (const d3d9::Spent& line : pixel.lines) {
+                lines.arithmetic += line.slots.arithmetic;
+                lines.texture += line.slots.texture;
+            }
+            EXPECT_EQ(steps, pixel.slots);
+            EXPECT_EQ(lines, pixel.slots);
+            EXPECT_EQ(pixel.reads.size(), static_cast<std::size_t>(pixel.slots.texture));
+            return pixel.slots;
+        };
+        // Rolled, a loop's body counts once; unrolled, each tap reads once more.
+        const bool rolled = std::string(target) != "hlsl_2_b" && std::string(target) != "essl_100";
+        if (rolled)
+            EXPECT_EQ(count("4"), count("8")) << target;
+        else
+            EXPECT_GE(count("8").texture, count("4").texture) << target;
+    }
 }
 
 }  // namespace
