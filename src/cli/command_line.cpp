@@ -100,6 +100,9 @@ void add_report(CLI::App& app, const dsl::Catalogue& catalogue, std::function<St
                         "(repeatable; Mesa's RADV, without the chip)");
     command->add_flag("!--no-pictures", options->pictures,
                       "Without the gallery, which draws every technique on every map");
+    command->add_option("--rounds", options->rounds, "Of timing; 0: no times of results of a sweep")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1000));
     command->add_option("--picture-size", options->picture_size, "Of the gallery, pixels a side")
         ->capture_default_str()
         ->check(CLI::IsMember({64, 128, 192, 256, 512}));

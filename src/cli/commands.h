@@ -187,6 +187,7 @@ struct ReportOptions {
     // Whose compilers are asked what the variants cost.
     std::vector<std::string> chips;
     bool pictures = true;    // drawn anew, which takes a device and the maps
+    int rounds = 9;          // of timing; 0: no times
     int picture_size = 192;  // pixels a side
 };
 // The results of a folder as one page that works offline.

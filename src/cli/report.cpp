@@ -16,6 +16,7 @@
 #include "src/report/gallery.h"
 #include "src/report/html.h"
 #include "src/report/live.h"
+#include "src/report/page_times.h"
 
 namespace intaglio::cli {
 namespace {
@@ -70,7 +71,7 @@ Result<std::vector<measure::MapSet>> maps_of(const report::PageData& page,
 Result<std::string> live_part(const report::PageData& page,
                               const std::vector<measure::MapSet>& sets,
                               const dsl::Catalogue& catalogue) {
-    constexpr std::size_t most_maps = 4;  // each is about 200 KB of the page
+    constexpr std::size_t most_maps = 3;  // each is about 200 KB of the page
     report::LiveOptions options;
     for (std::size_t i = 0; i < sets.size() && options.maps.size() < most_maps; ++i)
         if (!sets[i].heights.texels.empty())
@@ -92,6 +93,8 @@ Status write_page(report::PageData& page, const dsl::Catalogue& catalogue,
         if (!sets) return sets.error();
         if (Status status = report::add_gallery(page, catalogue, *sets, {options.picture_size});
             !status)
+            return status;
+        if (Status status = report::add_times(page, catalogue, *sets, options.rounds); !status)
             return status;
         Result<std::string> section = live_part(page, *sets, catalogue);
         if (!section) return section.error();

@@ -25,11 +25,18 @@ std::string short_name(const PageData& page, std::size_t variant) {
     return name;
 }
 
+// The same for a plot: values alone.
+std::string label_of(const PageData& page, std::size_t variant) {
+    std::string name = page.variants[variant].surface;
+    for (const auto& [knob, value] : page.variants[variant].knobs) name += " " + value;
+    return name;
+}
+
 // Three digits, as people read them.
 std::string digits(double value) {
     if (value == 0) return "0";
     if (value < least_seen) return "<0.001";
-    return fmt::format("{:.3g}", value);
+    return value >= 100 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
 }
 
 // A file name and a heading's anchor alike.
@@ -48,30 +55,31 @@ std::string maps_in(const PageData& page, const std::string& map_class) {
 
 // The cheapest variant within the limits, per class and elevation.
 std::string cheapest_table(const PageData& page, double texels, double missed) {
-    std::string text = fmt::format(
-        "**The cheapest variant with p95 at most {:g} texels and at most {:g} % of the hits "
-        "missed** "
-        "(texture reads per pixel):\n\n| maps |",
-        texels, missed);
-    for (double elevation : elevations(page)) text += fmt::format(" {:g}° |", elevation);
-    text += "\n|---|";
-    for (std::size_t i = 0; i < elevations(page).size(); ++i) text += "---|";
-    text += "\n";
+    std::string head = fmt::format(
+        "**The cheapest with p95 at most {:g} {} and at most {:g} % of the hits missed** (texture "
+        "reads "
+        "per pixel)\n\n| maps |",
+        texels, texels == 1 ? "texel" : "texels", missed);
+    std::string line = "\n|---|", rows;
+    for (double elevation : elevations(page)) {
+        head += fmt::format(" {:g}° |", elevation);
+        line += "---|";
+    }
     for (const std::string& map_class : map_classes(page)) {
-        text += fmt::format("| {} |", map_class);
+        rows += fmt::format("| {} |", map_class);
         for (double elevation : elevations(page)) {
             const std::vector<FrontPoint> points = front_points(page, map_class, elevation);
             const auto fits = std::find_if(points.begin(), points.end(), [&](const FrontPoint& p) {
                 return p.p95 <= texels && p.missed <= missed;
             });
-            text += fits == points.end()
+            rows += fits == points.end()
                         ? std::string(" none |")
                         : fmt::format(" {} ({}) |", short_name(page, fits->variant),
                                       digits(fits->reads));
         }
-        text += "\n";
+        rows += "\n";
     }
-    return text + "\n";
+    return head + line + "\n" + rows + "\n";
 }
 
 std::string front_table(const PageData& page, const std::string& map_class) {
@@ -99,30 +107,28 @@ std::string plot_script(const PageData& page, const std::string& map_class) {
         "set terminal svg size {},{} background rgb 'white' font 'sans-serif,12' noenhanced\n"
         "set multiplot layout {},{} title '{}: p95 of the hit error against texture reads'\n"
         "set logscale xy\nset grid lc rgb '#dddddd' lt 1\nset key off\n"
-        "set xrange [0.4:200]\nset yrange [0.0008:200]\nset xtics (1, 2, 5, 10, 20, 50, 100)\n"
+        "set xrange [0.4:200]\nset yrange [0.0008:400]\nset xtics (1, 2, 5, 10, 20, 50, 100)\n"
         "set ytics ('<= 0.001' 0.001, 0.01, 0.1, 1, 10, 100)\n"
         "set xlabel 'texture reads per pixel'\nset ylabel 'p95, texels'\n",
         columns * 480, rows * 340 + 30, rows, columns, file_name(map_class));
     for (double elevation : angles) {
         std::string all, front;
-        // Names go up and down in turn, so that neighbours do not cover one another.
-        bool up = true;
+        double named = std::numeric_limits<double>::infinity();
         for (const FrontPoint& point : front_points(page, map_class, elevation)) {
-            const std::string at = fmt::format("{:.6g} {:.6g}", std::max(point.reads, 0.5),
-                                               std::max(point.p95, least_seen));
+            const double y = std::max(point.p95, least_seen);
+            const std::string at = fmt::format("{:.6g} {:.6g}", std::max(point.reads, 0.5), y);
             all += at + "\n";
             if (!point.on_front) continue;
-            front +=
-                fmt::format("{} \"{}\" {}\n", at, short_name(page, point.variant), up ? 1 : -1);
-            up = !up;
+            // A name stands where no other is: names are half as high as the error's double.
+            const bool has_room = y * 1.9 < named;
+            front += fmt::format("{} \"{}\"\n", at, has_room ? label_of(page, point.variant) : "");
+            if (has_room) named = y;
         }
         script += fmt::format(
             "set title 'seen from {:g} degrees'\n$all << EOD\n{}EOD\n$front << EOD\n{}EOD\n"
             "plot $all with points pt 7 ps 0.4 lc rgb '#999999', $front with steps lw 1.5 lc rgb "
-            "'#0072b2', $front with points pt 7 ps 0.7 lc rgb '#0072b2', $front using "
-            "1:(column(4) > 0 ? $2*1.7 : $2/1.7):3 with labels left offset 0.6,0 font ',10' "
-            "textcolor "
-            "rgb '#222222'\n",
+            "'#0072b2', $front with points pt 7 ps 0.7 lc rgb '#0072b2', $front using 1:($2*1.4):3 "
+            "with labels left offset 0.5,0 font ',10' textcolor rgb '#222222'\n",
             elevation, all, front);
     }
     return script + "unset multiplot\n";
@@ -184,7 +190,7 @@ std::vector<FrontPoint> front_points(const PageData& page, const std::string& ma
 
 FrontDocument front_document(const PageData& page, const std::string& pictures) {
     FrontDocument document;
-    document.text = cheapest_table(page, 1, 1) + cheapest_table(page, 0.1, 0.1);
+    for (double limit : {1.0, 0.1}) document.text += cheapest_table(page, limit, limit);
     for (const std::string& map_class : map_classes(page)) {
         document.plots.push_back({file_name(map_class), plot_script(page, map_class)});
         document.text += fmt::format("### {}\n\n", map_class);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "src/maps/png.h"
 #include "src/measure/hits.h"
@@ -142,17 +143,11 @@ class Painter {
     std::map<std::string, std::size_t> exact_places_;
 };
 
-// The variants with pictures: of each technique the one in the middle, in the data's order.  Only
-// targets whose shaders can count their reads.
-std::vector<std::size_t> chosen_variants(const PageData& page, bool all) {
+// The variants with pictures: of each technique the one in the middle, in the data's order.
+std::vector<std::size_t> chosen_variants(const PageData& page) {
     std::vector<std::string> techniques;
     std::map<std::string, std::vector<std::size_t>> by_technique;
-    for (std::size_t i = 0; i < page.variants.size(); ++i) {
-        const Target* target = find_target(page.variants[i].target);
-        const Json& cases = page.json.at("cases");
-        const bool has_case = std::any_of(
-            cases.begin(), cases.end(), [&](const Json& item) { return item.at("variant") == i; });
-        if (!has_case || target == nullptr || profile_of(*target)) continue;
+    for (std::size_t i : drawn_variants(page)) {
         const std::string& technique = page.variants[i].surface;
         if (!by_technique.contains(technique)) techniques.push_back(technique);
         by_technique[technique].push_back(i);
@@ -160,12 +155,13 @@ std::vector<std::size_t> chosen_variants(const PageData& page, bool all) {
     std::vector<std::size_t> chosen;
     for (const std::string& technique : techniques) {
         const std::vector<std::size_t>& own = by_technique[technique];
-        if (all)
-            chosen.insert(chosen.end(), own.begin(), own.end());
-        else
-            chosen.push_back(own[(own.size() - 1) / 2]);
+        chosen.push_back(own[(own.size() - 1) / 2]);
     }
     return chosen;
+}
+
+Json json_of(Direction direction) {
+    return {{"elevation", direction.elevation}, {"azimuth", direction.azimuth}};
 }
 
 Direction direction_in(const Json& json) { return {json.at("elevation"), json.at("azimuth")}; }
@@ -184,26 +180,42 @@ const Json* case_to_show(const PageData& page, std::size_t map) {
 
 }  // namespace
 
+std::optional<measure::Shot> shown_shot(const PageData& page, std::size_t map) {
+    const Json* item = case_to_show(page, map);
+    if (item == nullptr) return {};
+    return measure::Shot{direction_in(item->at("view")), direction_in(item->at("light")),
+                         item->at("scale"), 192, 192};
+}
+
+std::vector<std::size_t> drawn_variants(const PageData& page) {
+    std::set<std::size_t> with_case;
+    for (const Json& item : page.json.at("cases"))
+        with_case.insert(item.at("variant").get<std::size_t>());
+    std::vector<std::size_t> drawn;
+    for (std::size_t variant : with_case) {
+        const Target* target = find_target(page.variants[variant].target);
+        if (target != nullptr && !profile_of(*target)) drawn.push_back(variant);
+    }
+    return drawn;
+}
+
 Status add_gallery(PageData& page, const dsl::Catalogue& catalogue,
                    const std::vector<measure::MapSet>& maps, const GalleryOptions& options) {
     const Result<vulkan::Device> device = vulkan::Device::create({page.device, false});
     if (!device) return device.error();
     Json entries = Json::array(), exact = Json::array();
-    const std::vector<std::size_t> variants = chosen_variants(page, options.all);
+    const std::vector<std::size_t> variants = chosen_variants(page);
     const measure::Filtering filtering =
         page.native_filtering ? measure::Filtering::Native : measure::Filtering::Float;
     for (std::size_t map = 0; map < maps.size(); ++map) {
-        const Json* item = case_to_show(page, map);
-        if (item == nullptr || maps[map].heights.texels.empty()) continue;
-        const measure::Shot shot{direction_in(item->at("view")), direction_in(item->at("light")),
-                                 item->at("scale"), options.size, options.size};
-        Painter painter(*device, catalogue, maps[map], shot, filtering);
+        std::optional<measure::Shot> shot = shown_shot(page, map);
+        if (!shot || maps[map].heights.texels.empty()) continue;
+        shot->width = shot->height = options.size;
+        const Json view = json_of(shot->view), light = json_of(shot->light);
+        Painter painter(*device, catalogue, maps[map], *shot, filtering);
         for (std::size_t variant : variants) {
             const VariantRequest& request = page.variants[variant];
-            Json entry = {{"map", map},
-                          {"variant", variant},
-                          {"view", item->at("view")},
-                          {"light", item->at("light")}};
+            Json entry = {{"map", map}, {"variant", variant}, {"view", view}, {"light", light}};
             const Result<Json> render = painter.render(request);
             if (!render) return render.error();
             entry["render"] = *render;

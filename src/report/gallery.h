@@ -2,14 +2,24 @@
 // which the page colours.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "src/measure/map_set.h"
+#include "src/measure/shot.h"
 #include "src/report/page_data.h"
 
 namespace intaglio::report {
 
+// Where the gallery sees a map from: of the data's views the one nearest to 30 degrees, with its
+// light and scale, in 192 x 192 pixels.  Nothing where no case is on the map.
+std::optional<measure::Shot> shown_shot(const PageData& page, std::size_t map);
+// Variants with a case whose target the device runs as it is, in the data's order: all but the
+// Direct3D 9 profiles.
+std::vector<std::size_t> drawn_variants(const PageData& page);
+
 struct GalleryOptions {
-    int size = 192;    // pixels a side
-    bool all = false;  // every variant in place of one a technique
+    int size = 192;  // pixels a side
 };
 
 // Draws each technique's variant in the middle of its settings on every map, seen from the

@@ -160,7 +160,8 @@ Json makers_of_sweep() {
              "the longest path takes every loop as often as its knob allows"},
             {"d3d9", "slots and registers of the shaded pixel stage by Direct3D's charge, exact"},
             {"picture",
-             "the shaded picture against that of the exact search: FLIP (Andersson et al. 2020) "
+             "the shaded picture against the same shading at the exact hits: FLIP (Andersson et "
+             "al. 2020) "
              "and PSNR"},
             {"swim",
              "how far the hit moves, beyond the exact one, when the camera moves by 0.1 degrees"},

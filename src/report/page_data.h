@@ -54,7 +54,8 @@ Status add_sources(PageData& page, const dsl::Catalogue& catalogue);
 
 // What the compilers of these chips make of each pixel stage (src/measure/cost.h):
 // variants[i].chips = {chip: {instructions, vector_registers, latency, inverse_throughput}}, and
-// their makers.  Errors: "vulkan-..." where there is no such driver.
+// their makers.  Where there is no such driver made_by says so.  Errors: those of make_variant and
+// of the compilers.
 Status add_chips(PageData& page, const dsl::Catalogue& catalogue,
                  const std::vector<std::string>& chips);
 

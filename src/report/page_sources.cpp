@@ -65,7 +65,11 @@ Status add_sources(PageData& page, const dsl::Catalogue& catalogue) {
 Status add_chips(PageData& page, const dsl::Catalogue& catalogue,
                  const std::vector<std::string>& chips) {
     const Result<measure::ChipCompilers> compilers = measure::ChipCompilers::create(chips);
-    if (!compilers) return compilers.error();
+    if (!compilers) {
+        for (const std::string& chip : chips)
+            page.json["made_by"][chip] = "not known here: " + compilers.error().message;
+        return Done{};
+    }
     for (std::size_t i = 0; i < page.variants.size(); ++i) {
         const Result<Variant> variant = make_variant(catalogue, page.variants[i]);
         if (!variant && is_refusal(variant.error())) continue;

@@ -92,8 +92,9 @@ class ReportTest(unittest.TestCase):
     # What is drawn: [(technique, x, y)] of all points of a chart but its front.
     def points(self, section):
         return self.run_script("""
-            return document.getElementById(arguments[0]).querySelector('.plot').chart.data.datasets
-              .filter(set => set.label !== 'Pareto front').flatMap(set => set.data.map(point => [set.label, point.x, point.y]));
+            const sets = document.getElementById(arguments[0]).querySelector('.plot').chart.data.datasets;
+            return sets.filter(set => set.label !== 'Pareto front')
+              .flatMap(set => set.data.map(point => [set.label, point.x, point.y]));
             """, section)
 
     def test_every_section_draws_or_says_why_not(self):
@@ -192,7 +193,8 @@ class ReportTest(unittest.TestCase):
             const plot = document.querySelector('#pareto .plot'), element = plot.chart.getDatasetMeta(1).data[0];
             return [element.x - plot.clientWidth / 2, element.y - plot.clientHeight / 2];""")
         plot = self.browser.find_element(By.CSS_SELECTOR, "#pareto .plot")
-        webdriver.ActionChains(self.browser).move_to_element_with_offset(plot, round(place[0]), round(place[1])).click().perform()
+        mouse = webdriver.ActionChains(self.browser)
+        mouse.move_to_element_with_offset(plot, round(place[0]), round(place[1])).click().perform()
         self.until("return document.querySelector('#pareto .picked')")
         card = self.browser.find_element(By.CSS_SELECTOR, "#pareto .picked")
         self.assertIn("intaglio run parallax_occlusion", card.text)
@@ -211,7 +213,10 @@ class ReportTest(unittest.TestCase):
             seen.add(self.run_script(pixels, 1))
         self.assertEqual(len(seen), 4)
         before = self.run_script(pixels, 1)
-        self.run_script("const s = document.getElementById('gallery-slider'); s.value = 20; s.dispatchEvent(new Event('input'));")
+        self.run_script("""
+            const slider = document.getElementById('gallery-slider');
+            slider.value = 20;
+            slider.dispatchEvent(new Event('input'));""")
         self.assertNotEqual(before, self.run_script(pixels, 1))
         self.assertIn("80%", self.run_script(pixels, 1))
 
@@ -219,7 +224,8 @@ class ReportTest(unittest.TestCase):
         index = next(i for i, row in enumerate(self.results["rows"]) if row["target"] == "ps_2_b")
         self.choose("source-variant", str(index))
         slots = self.run_script("""
-            return [...document.querySelectorAll('#source-text tr.spends')].map(row => [...row.querySelectorAll('.slots')].map(cell => +cell.textContent));""")
+            return [...document.querySelectorAll('#source-text tr.spends')].map(row =>
+              [...row.querySelectorAll('.slots')].map(cell => +cell.textContent));""")
         spent = self.results["rows"][index]["d3d9"]
         self.assertEqual([sum(line[k] for line in slots) for k in (0, 1)], [spent["arithmetic"], spent["texture"]])
 
@@ -235,10 +241,33 @@ class ReportTest(unittest.TestCase):
             self.until(f"return innerWidth === {width} && document.documentElement.scrollWidth <= {width}")
         self.browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
+    def test_what_cannot_be_reported_is_refused_with_a_sentence(self):
+        broken = folder / "broken"
+        broken.mkdir(exist_ok=True)
+        (broken / "results.jsonl").write_text('{"schema": 1}\n{"sch')
+        page = broken / "report.html"
+        for arguments, words in ((["nowhere", "-o", page], "nowhere"),
+                                 ([broken, "-o", page], "results.jsonl"),
+                                 ([folder], "-o FILE")):
+            made = subprocess.run([intaglio, "report", *map(str, arguments)], capture_output=True, text=True, check=False)
+            self.assertEqual(made.returncode, 2, made.stderr)
+            self.assertIn("error: ", made.stderr)
+            self.assertIn(words, made.stderr)
+            self.assertFalse(page.exists())
+
+    def test_the_same_data_gives_the_same_page(self):
+        # Without pictures, so without times, which no two runs share.
+        pages = [folder / "once.html", folder / "twice.html"]
+        for page in pages:
+            subprocess.run([intaglio, "report", str(folder), "--no-pictures", "-o", str(page)], check=True)
+        once, twice = (page.read_text().replace(page.name, "") for page in pages)
+        self.assertEqual(once, twice)
+
     def test_zz_nothing_was_complained_of_and_nothing_left_the_page(self):
         self.assertEqual(self.browser.get_log("browser"), [])
         sent = [json.loads(entry["message"])["message"] for entry in self.browser.get_log("performance")]
-        addresses = {message["params"]["request"]["url"] for message in sent if message["method"] == "Network.requestWillBeSent"}
+        addresses = {message["params"]["request"]["url"] for message in sent
+                     if message["method"] == "Network.requestWillBeSent"}
         self.assertIn(self.page.as_uri(), addresses)
         self.assertEqual([address for address in addresses if not address.startswith(("file:", "data:", "blob:"))], [])
 

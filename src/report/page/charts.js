@@ -12,13 +12,13 @@ function lookOf(technique) {
   const place = techniques.indexOf(technique);
   return {
     colour: css(colourNames[place % colourNames.length]),
-    shape: shapes[(place % 2) * 3 % shapes.length + Math.floor(place / colourNames.length) % 3],
+    shape: shapes[(((place % 2) * 3) % shapes.length) + (Math.floor(place / colourNames.length) % 3)],
     dash: dashes[Math.floor(place / colourNames.length) % dashes.length],
   };
 }
 
 const hiddenTechniques = new Set();
-const charts = new Set();       // of {draw()}
+const charts = new Set(); // of {draw()}
 const redrawAll = () => charts.forEach(chart => chart.draw());
 
 function applyTheme() {
@@ -30,7 +30,9 @@ function applyTheme() {
 
 // A glyph as charts draw it: line, then shape.
 function drawGlyph(canvas, technique, withLine) {
-  const ratio = 2, context = canvas.getContext('2d'), look = lookOf(technique);
+  const ratio = 2,
+    context = canvas.getContext('2d'),
+    look = lookOf(technique);
   canvas.width = 28 * ratio;
   canvas.height = 14 * ratio;
   context.scale(ratio, ratio);
@@ -49,15 +51,32 @@ function drawGlyph(canvas, technique, withLine) {
 
 // Buttons that show and hide a technique, in all plots at once.
 function legend(shown, withLine) {
-  const list = element('div', {class: 'legend', role: 'group', 'aria-label': 'Techniques; press to hide or show'});
+  const list = element('div', {
+    class: 'legend',
+    role: 'group',
+    'aria-label': 'Techniques; press to hide or show',
+  });
   for (const technique of shown) {
     const glyph = element('canvas', {'aria-hidden': 'true'});
     drawGlyph(glyph, technique, withLine);
-    list.append(element('button', {type: 'button', 'aria-pressed': String(!hiddenTechniques.has(technique)),
-      'data-technique': technique, onclick: () => {
-        hiddenTechniques.has(technique) ? hiddenTechniques.delete(technique) : hiddenTechniques.add(technique);
-        redrawAll();
-      }}, glyph, technique));
+    list.append(
+      element(
+        'button',
+        {
+          type: 'button',
+          'aria-pressed': String(!hiddenTechniques.has(technique)),
+          'data-technique': technique,
+          onclick: () => {
+            hiddenTechniques.has(technique)
+              ? hiddenTechniques.delete(technique)
+              : hiddenTechniques.add(technique);
+            redrawAll();
+          },
+        },
+        glyph,
+        technique,
+      ),
+    );
   }
   return list;
 }
@@ -81,18 +100,40 @@ function axisFor(measure, values, title) {
   const floor = measure.floor;
   const top = Math.max(...known, floor ?? 0);
   const least = Math.min(...known.filter(value => value > 0));
-  const grid = {color: css('grid')}, colours = {color: css('soft')};
-  const name = {display: true, text: title ?? `${measure.name} (${measure.unit})`, color: css('ink'), font: {size: 13}};
+  const grid = {color: css('grid')},
+    colours = {color: css('soft')};
+  const name = {
+    display: true,
+    text: title ?? `${measure.name} (${measure.unit})`,
+    color: css('ink'),
+    font: {size: 13},
+  };
   if (floor == null || top / Math.max(least, floor) < 20)
-    return {type: 'linear', beginAtZero: true, grid, title: name, ticks: {...colours, maxTicksLimit: 8}, place: value => value};
+    return {
+      type: 'linear',
+      beginAtZero: true,
+      grid,
+      title: name,
+      ticks: {...colours, maxTicksLimit: 8},
+      place: value => value,
+    };
   const isCut = known.some(value => value < floor);
   return {
-    type: 'logarithmic', grid, title: name, min: floor * (isCut ? 0.8 : 1), max: top * 1.25,
+    type: 'logarithmic',
+    grid,
+    title: name,
+    min: floor * (isCut ? 0.8 : 1),
+    max: top * 1.25,
     afterBuildTicks: axis => {
       logTicks(axis);
       if (isCut) axis.ticks = [{value: floor}, ...axis.ticks.filter(tick => tick.value > floor * 1.3)];
-    }, place: value => Math.max(value, floor),
-    ticks: {...colours, autoSkip: false, callback: value => isCut && Math.abs(value / floor - 1) < 0.01 ? `≤ ${plain2(value)}` : plain2(value)},
+    },
+    place: value => Math.max(value, floor),
+    ticks: {
+      ...colours,
+      autoSkip: false,
+      callback: value => (isCut && Math.abs(value / floor - 1) < 0.01 ? `≤ ${plain2(value)}` : plain2(value)),
+    },
   };
 }
 // Ticks keep what plain() would cut.
@@ -104,22 +145,44 @@ const frontLabels = {
   afterDatasetsDraw(chart, _arguments, options) {
     const {ctx, chartArea: area} = chart;
     const taken = (options.avoid ?? []).map(({x, y}) => {
-      const px = chart.scales.x.getPixelForValue(x), py = chart.scales.y.getPixelForValue(y);
+      const px = chart.scales.x.getPixelForValue(x),
+        py = chart.scales.y.getPixelForValue(y);
       return {left: px - 5, right: px + 5, top: py - 5, bottom: py + 5};
     });
     ctx.save();
     ctx.font = '12px system-ui, sans-serif';
     ctx.textBaseline = 'middle';
     for (const {x, y, text} of options.points ?? []) {
-      const px = chart.scales.x.getPixelForValue(x), py = chart.scales.y.getPixelForValue(y);
+      const px = chart.scales.x.getPixelForValue(x),
+        py = chart.scales.y.getPixelForValue(y);
       const width = ctx.measureText(text).width;
       const toLeft = px + 12 + width > area.right;
       const left = toLeft ? px - 12 - width : px + 12;
-      const spot = [py - 14, py + 14, py - 28, py + 28, py - 42, py].map(middle => ({left: left - 2, right: left + width + 2, top: middle - 7, bottom: middle + 7}))
-        .find(box => box.top > area.top && box.bottom < area.bottom && box.left > area.left &&
-          taken.every(other => box.left > other.right || box.right < other.left || box.top > other.bottom || box.bottom < other.top));
+      const spot = [py - 14, py + 14, py - 28, py + 28, py - 42, py]
+        .map(middle => ({left: left - 2, right: left + width + 2, top: middle - 7, bottom: middle + 7}))
+        .find(
+          box =>
+            box.top > area.top &&
+            box.bottom < area.bottom &&
+            box.left > area.left &&
+            taken.every(
+              other =>
+                box.left > other.right ||
+                box.right < other.left ||
+                box.top > other.bottom ||
+                box.bottom < other.top,
+            ),
+        );
       if (!spot) continue;
       taken.push(spot);
+      if (Math.abs(spot.top + 7 - py) > 15) {
+        // far away: say whose it is
+        ctx.strokeStyle = css('soft');
+        ctx.beginPath();
+        ctx.moveTo(px, py);
+        ctx.lineTo(toLeft ? spot.right : spot.left, spot.top + 7);
+        ctx.stroke();
+      }
       ctx.fillStyle = css('paper');
       ctx.globalAlpha = 0.8;
       ctx.fillRect(spot.left, spot.top, spot.right - spot.left, 14);
@@ -148,9 +211,11 @@ function chartBox(make, pick) {
       return;
     }
     canvas.setAttribute('aria-label', made.label);
-    const options = made.config.options ??= {};
+    const options = (made.config.options ??= {});
     Object.assign(options, {
-      animation: false, responsive: true, maintainAspectRatio: false,
+      animation: false,
+      responsive: true,
+      maintainAspectRatio: false,
       onClick: (_event, elements, current) => {
         if (!elements.length || !pick) return;
         const {datasetIndex, index} = elements[0];

@@ -2,51 +2,137 @@
 // where a case has it.  A case is one variant on one map at one view and light; its numbers are the data's, unchanged.
 
 const data = JSON.parse(document.getElementById('data').textContent);
-data.cases.forEach((item, index) => { item.index = index; });
+data.cases.forEach((item, index) => {
+  item.index = index;
+});
 
 const variantOf = item => data.variants[item.variant];
-const percent = (part, whole) => whole > 0 ? 100 * part / whole : null;
-const at = (object, ...path) => path.reduce((value, key) => value == null ? null : value[key], object) ?? null;
+const percent = (part, whole) => (whole > 0 ? (100 * part) / whole : null);
+const at = (object, ...path) =>
+  path.reduce((value, key) => (value == null ? null : value[key]), object) ?? null;
 
 // `floor`: what is smaller is drawn there, because a logarithmic axis has no zero.
 const errorMeasures = [
-  {id: 'p95', name: 'hit error, 95th percentile', unit: 'texels', floor: 0.001, of: c => at(c, 'hits', 'p95')},
+  {
+    id: 'p95',
+    name: 'hit error, 95th percentile',
+    unit: 'texels',
+    floor: 0.001,
+    of: c => at(c, 'hits', 'p95'),
+  },
   {id: 'median', name: 'hit error, median', unit: 'texels', floor: 0.001, of: c => at(c, 'hits', 'median')},
-  {id: 'p99', name: 'hit error, 99th percentile', unit: 'texels', floor: 0.001, of: c => at(c, 'hits', 'p99')},
+  {
+    id: 'p99',
+    name: 'hit error, 99th percentile',
+    unit: 'texels',
+    floor: 0.001,
+    of: c => at(c, 'hits', 'p99'),
+  },
   {id: 'max', name: 'hit error, greatest', unit: 'texels', floor: 0.001, of: c => at(c, 'hits', 'max')},
-  {id: 'missed', name: 'missed first hits', unit: '% of pixels', of: c => percent(at(c, 'hits', 'missed'), at(c, 'hits', 'pixels'))},
-  {id: 'shadow', name: 'shadow misjudged', unit: '% of pixels', of: c => percent(at(c, 'hits', 'shadow_wrong'), at(c, 'hits', 'pixels'))},
+  {
+    id: 'missed',
+    name: 'missed first hits',
+    unit: '% of pixels',
+    of: c => percent(at(c, 'hits', 'missed'), at(c, 'hits', 'pixels')),
+  },
+  {
+    id: 'shadow',
+    name: 'shadow misjudged',
+    unit: '% of pixels',
+    of: c => percent(at(c, 'hits', 'shadow_wrong'), at(c, 'hits', 'pixels')),
+  },
   {id: 'flip', name: 'FLIP against the exact picture', unit: 'mean', of: c => at(c, 'picture', 'flip_mean')},
-  {id: 'psnr_loss', name: 'picture error (root mean square)', unit: 'of full scale', floor: 1e-5,
-    of: c => !c.picture ? null : c.picture.psnr == null ? 0 : 10 ** (-c.picture.psnr / 20)},
-  {id: 'swim', name: 'swim under a 0.1° move of the camera, 95th percentile', unit: 'texels', floor: 0.001, of: c => at(c, 'swim', 'p95')},
+  {
+    id: 'psnr_loss',
+    name: 'picture error (root mean square)',
+    unit: 'of full scale',
+    floor: 1e-5,
+    of: c => (!c.picture ? null : c.picture.psnr == null ? 0 : 10 ** (-c.picture.psnr / 20)),
+  },
+  {
+    id: 'swim',
+    name: 'swim under a 0.1° move of the camera, 95th percentile',
+    unit: 'texels',
+    floor: 0.001,
+    of: c => at(c, 'swim', 'p95'),
+  },
 ].filter(measure => data.cases.some(item => measure.of(item) != null));
 
 // Chips whose compilers were asked.
 const chips = [...new Set(data.variants.flatMap(variant => Object.keys(variant.chips ?? {})))];
 
 const costMeasures = [
-  {id: 'reads', name: 'texture reads of the search and shadow', unit: 'per pixel, mean', floor: 0.5, of: c => at(c, 'reads', 'mean')},
-  {id: 'slots', name: 'Direct3D 9 slots', unit: 'arithmetic and texture', of: c => {
-    const slots = variantOf(c).d3d9;
-    return slots ? slots.arithmetic + slots.texture : null;
-  }},
-  {id: 'alu', name: 'SPIR-V arithmetic instructions', unit: 'in the optimised shader', of: c => at(variantOf(c), 'spirv', 'alu')},
-  {id: 'path', name: 'SPIR-V instructions on the longest path', unit: 'executed', floor: 1, of: c => at(variantOf(c), 'spirv', 'longest_path')},
-  {id: 'instructions', name: 'instructions executed', unit: 'per pixel, mean', floor: 1, of: c => at(c, 'instructions', 'mean')},
+  {
+    id: 'reads',
+    name: 'texture reads of the search and shadow',
+    unit: 'per pixel, mean',
+    floor: 0.5,
+    of: c => at(c, 'reads', 'mean'),
+  },
+  {
+    id: 'slots',
+    name: 'Direct3D 9 slots',
+    unit: 'arithmetic and texture',
+    of: c => {
+      const slots = variantOf(c).d3d9;
+      return slots ? slots.arithmetic + slots.texture : null;
+    },
+  },
+  {
+    id: 'alu',
+    name: 'SPIR-V arithmetic instructions',
+    unit: 'in the optimised shader',
+    of: c => at(variantOf(c), 'spirv', 'alu'),
+  },
+  {
+    id: 'path',
+    name: 'SPIR-V instructions on the longest path',
+    unit: 'executed',
+    floor: 1,
+    of: c => at(variantOf(c), 'spirv', 'longest_path'),
+  },
+  {
+    id: 'instructions',
+    name: 'instructions executed',
+    unit: 'per pixel, mean',
+    floor: 1,
+    of: c => at(c, 'instructions', 'mean'),
+  },
   ...chips.flatMap(chip => [
-    {id: `${chip}-throughput`, name: `inverse throughput on ${chip} by its compiler`, unit: 'cycles', floor: 1, of: c => at(variantOf(c), 'chips', chip, 'inverse_throughput')},
-    {id: `${chip}-instructions`, name: `instructions on ${chip} by its compiler`, unit: 'in the binary', floor: 1, of: c => at(variantOf(c), 'chips', chip, 'instructions')},
+    {
+      id: `${chip}-throughput`,
+      name: `inverse throughput on ${chip} by its compiler`,
+      unit: 'cycles',
+      floor: 1,
+      of: c => at(variantOf(c), 'chips', chip, 'inverse_throughput'),
+    },
+    {
+      id: `${chip}-instructions`,
+      name: `instructions on ${chip} by its compiler`,
+      unit: 'in the binary',
+      floor: 1,
+      of: c => at(variantOf(c), 'chips', chip, 'instructions'),
+    },
   ]),
-  {id: 'time', name: 'time, as a ratio to the first variant', unit: 'on the device', floor: 0.5, of: c => at(c, 'time', 'ratio')},
+  {
+    id: 'time',
+    name: 'time, as a ratio to the first variant',
+    unit: 'on the device',
+    floor: 0.5,
+    of: c => at(c, 'time', 'ratio') ?? at(variantOf(c), 'time', 'ratio'),
+  },
 ].filter(measure => data.cases.some(item => measure.of(item) != null));
 
 // Techniques in the order in which they are measured; their place decides colour, shape and dash.
 const techniques = [...new Set(data.variants.map(variant => variant.technique))];
 
 const directionName = ({elevation, azimuth}) => `elevation ${plain(elevation)}°, azimuth ${plain(azimuth)}°`;
-const knobsText = variant => Object.entries(variant.knobs).map(([name, value]) => `${name} = ${value}`).join(', ');
-const variantName = variant => [variant.surface, knobsText(variant), variant.target].filter(Boolean).join(' · ');
+const knobsText = variant =>
+  Object.entries(variant.knobs)
+    .map(([name, value]) => `${name} = ${value}`)
+    .join(', ');
+const variantName = variant =>
+  [variant.surface, knobsText(variant), variant.target].filter(Boolean).join(' · ');
 
 // The knob that a technique's variants differ in and that says how many steps it takes; null where none does.
 function stepsKnob(technique) {
@@ -73,12 +159,13 @@ function plain(value) {
 // The values there are of one property of the cases, in order.
 function valuesOf(items, property) {
   const values = [...new Set(items.map(property))];
-  return values.sort((a, b) => typeof a === 'number' ? a - b : String(a).localeCompare(String(b)));
+  return values.sort((a, b) => (typeof a === 'number' ? a - b : String(a).localeCompare(String(b))));
 }
 
 const worst = 'worst';
 // Of several cases of one variant the greatest, as percentiles of different views cannot be merged.
-const greatest = values => values.every(value => value == null) ? null : Math.max(...values.filter(value => value != null));
+const greatest = values =>
+  values.every(value => value == null) ? null : Math.max(...values.filter(value => value != null));
 const mean = values => {
   const known = values.filter(value => value != null);
   return known.length ? known.reduce((sum, value) => sum + value, 0) / known.length : null;

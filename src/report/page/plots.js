@@ -3,12 +3,51 @@
 
 // What of the cases is looked at; every plot has its own.  Directions are told apart by all their angles.
 const dimensions = [
-  {id: 'map', label: 'Map', of: c => c.map, name: value => data.maps[value].name, all: 'all maps (worst of each)'},
-  {id: 'elevation', label: 'View elevation', of: c => c.view.elevation, name: value => `${plain(value)}°`, all: 'all elevations (worst of each)'},
-  {id: 'azimuth', label: 'View azimuth', of: c => c.view.azimuth, name: value => `${plain(value)}°`, all: 'all azimuths (worst of each)'},
-  {id: 'light', label: 'Light', of: c => `${c.light.elevation}/${c.light.azimuth}`, name: value => { const [elevation, azimuth] = value.split('/'); return directionName({elevation: Number(elevation), azimuth: Number(azimuth)}); }, all: 'all lights (worst of each)'},
-  {id: 'scale', label: 'Depth of the relief', of: c => c.scale ?? '', name: value => plain(value), all: 'all depths (worst of each)'},
-  {id: 'precision', label: 'Arithmetic', of: c => c.arithmetic ?? '', name: String, all: 'all (worst of each)'},
+  {
+    id: 'map',
+    label: 'Map',
+    of: c => c.map,
+    name: value => data.maps[value].name,
+    all: 'all maps (worst of each)',
+  },
+  {
+    id: 'elevation',
+    label: 'View elevation',
+    of: c => c.view.elevation,
+    name: value => `${plain(value)}°`,
+    all: 'all elevations (worst of each)',
+  },
+  {
+    id: 'azimuth',
+    label: 'View azimuth',
+    of: c => c.view.azimuth,
+    name: value => `${plain(value)}°`,
+    all: 'all azimuths (worst of each)',
+  },
+  {
+    id: 'light',
+    label: 'Light',
+    of: c => `${c.light.elevation}/${c.light.azimuth}`,
+    name: value => {
+      const [elevation, azimuth] = value.split('/');
+      return directionName({elevation: Number(elevation), azimuth: Number(azimuth)});
+    },
+    all: 'all lights (worst of each)',
+  },
+  {
+    id: 'scale',
+    label: 'Depth of the relief',
+    of: c => c.scale ?? '',
+    name: value => plain(value),
+    all: 'all depths (worst of each)',
+  },
+  {
+    id: 'precision',
+    label: 'Arithmetic',
+    of: c => c.arithmetic ?? '',
+    name: String,
+    all: 'all (worst of each)',
+  },
   {id: 'target', label: 'Target', of: c => variantOf(c).target, name: String, all: 'all targets'},
 ];
 
@@ -19,7 +58,9 @@ function startOf(dimension) {
   const values = dimensionValues(dimension);
   if (dimension.id === 'map') return String(values[0]);
   if (dimension.id === 'elevation')
-    return String(values.reduce((best, value) => Math.abs(value - 30) < Math.abs(best - 30) ? value : best));
+    return String(
+      values.reduce((best, value) => (Math.abs(value - 30) < Math.abs(best - 30) ? value : best)),
+    );
   if (dimension.id === 'precision') return String(values.includes('fp32') ? 'fp32' : values[0]);
   return worst;
 }
@@ -32,17 +73,33 @@ function makeFilter(prefix, ids, redraw) {
     state[id] = startOf(dimension);
     const options = [...dimensionValues(dimension).map(value => [String(value), dimension.name(value)])];
     if (options.length > 1) options.push([worst, dimension.all]);
-    return choice(dimension.label, `${prefix}-${id}`, options, options.length > 1 ? state[id] : options[0]?.[0],
-      value => { state[id] = value; redraw(); });
+    return choice(
+      dimension.label,
+      `${prefix}-${id}`,
+      options,
+      options.length > 1 ? state[id] : options[0]?.[0],
+      value => {
+        state[id] = value;
+        redraw();
+      },
+    );
   });
-  const cases = () => data.cases.filter(item => ids.every(id => state[id] === worst ||
-    String(dimensions.find(each => each.id === id).of(item)) === state[id]));
-  const words = () => ids.filter(id => dimensionValues(dimensions.find(each => each.id === id)).length > 1).map(id => {
-    const dimension = dimensions.find(each => each.id === id);
-    if (state[id] === worst) return dimension.all;
-    const value = dimensionValues(dimension).find(each => String(each) === state[id]);
-    return `${dimension.label.toLowerCase()} ${dimension.name(value)}`;
-  }).join(', ');
+  const cases = () =>
+    data.cases.filter(item =>
+      ids.every(
+        id => state[id] === worst || String(dimensions.find(each => each.id === id).of(item)) === state[id],
+      ),
+    );
+  const words = () =>
+    ids
+      .filter(id => dimensionValues(dimensions.find(each => each.id === id)).length > 1)
+      .map(id => {
+        const dimension = dimensions.find(each => each.id === id);
+        if (state[id] === worst) return dimension.all;
+        const value = dimensionValues(dimension).find(each => String(each) === state[id]);
+        return `${dimension.label.toLowerCase()} ${dimension.name(value)}`;
+      })
+      .join(', ');
   return {state, controls, cases, words};
 }
 
@@ -61,7 +118,8 @@ const commandColumn = {name: 'Command', command: true, of: row => row.case.comma
 function pointsOf(items, cost, error) {
   const points = [];
   for (const [variant, own] of byVariant(items)) {
-    const y = greatest(own.map(error.of)), x = mean(own.map(cost.of));
+    const y = greatest(own.map(error.of)),
+      x = mean(own.map(cost.of));
     if (x == null || y == null) continue;
     points.push({variant, x, y, case: own.find(item => error.of(item) === y)});
   }
@@ -76,10 +134,19 @@ function tooltipOf(lines) {
 function series(technique, points, xAxis, yAxis, withLine) {
   const look = lookOf(technique);
   return {
-    label: technique, type: withLine ? 'line' : 'scatter', showLine: withLine,
+    label: technique,
+    type: withLine ? 'line' : 'scatter',
+    showLine: withLine,
     data: points.map(point => ({...point, value: point, x: xAxis.place(point.x), y: yAxis.place(point.y)})),
-    borderColor: look.colour, backgroundColor: look.colour, pointStyle: look.shape, borderDash: look.dash,
-    borderWidth: 2, pointBorderWidth: 2, radius: 5, hoverRadius: 8, hitRadius: 8,
+    borderColor: look.colour,
+    backgroundColor: look.colour,
+    pointStyle: look.shape,
+    borderDash: look.dash,
+    borderWidth: 2,
+    pointBorderWidth: 2,
+    radius: 5,
+    hoverRadius: 8,
+    hitRadius: 8,
   };
 }
 
@@ -90,105 +157,226 @@ function plotSection(id, {filterIds, extra = () => [], make, withLine, tableTitl
   const redraw = () => chart.draw();
   const filter = makeFilter(id, filterIds, redraw);
   const view = {filter, choices: {}};
-  const behind = tableBehind('', () => table(drawn?.columns ?? [], drawn?.points ?? [],
-    {id: `${id}-table`, isMarked: row => Boolean(row.onFront)}));
-  const legendBox = element('div'), pickedBox = element('div'), noteBox = element('p', {class: 'note'});
-  const chart = chartBox(() => {
-    drawn = make(view);
-    const shown = techniques.filter(technique => (drawn.techniques ?? []).includes(technique));
-    legendBox.replaceChildren(legend(shown, withLine));
-    noteBox.textContent = drawn.note ?? '';
-    behind.hidden = !drawn.points?.length;
-    behind.refresh(`${tableTitle}: ${drawn.points?.length ?? 0} rows`);
-    return drawn;
-  }, point => pickedBox.replaceChildren(caseCard(point.case ?? point.value.case, [...errorMeasures, ...costMeasures])));
-  section.append(element('div', {class: 'controls'}, ...extra(view, redraw), ...filter.controls),
-    chart.box, legendBox, noteBox, pickedBox, behind);
+  const behind = tableBehind('', () =>
+    table(drawn?.columns ?? [], drawn?.points ?? [], {
+      id: `${id}-table`,
+      isMarked: row => Boolean(row.onFront),
+    }),
+  );
+  const legendBox = element('div'),
+    pickedBox = element('div'),
+    noteBox = element('p', {class: 'note'});
+  const chart = chartBox(
+    () => {
+      drawn = make(view);
+      const shown = techniques.filter(technique => (drawn.techniques ?? []).includes(technique));
+      legendBox.replaceChildren(legend(shown, withLine));
+      noteBox.textContent = drawn.note ?? '';
+      behind.hidden = !drawn.points?.length;
+      behind.refresh(`${tableTitle}: ${drawn.points?.length ?? 0} rows`);
+      return drawn;
+    },
+    point =>
+      pickedBox.replaceChildren(
+        caseCard(point.case ?? point.value.case, [...errorMeasures, ...costMeasures]),
+      ),
+  );
+  section.append(
+    element('div', {class: 'controls'}, ...extra(view, redraw), ...filter.controls),
+    chart.box,
+    legendBox,
+    noteBox,
+    pickedBox,
+    behind,
+  );
   charts.add(chart);
   section.chart = chart;
 }
 
 const visible = point => !hiddenTechniques.has(data.variants[point.variant].technique);
 const techniquesIn = points => [...new Set(points.map(point => data.variants[point.variant].technique))];
-const ofTechnique = (points, technique) => points.filter(point => data.variants[point.variant].technique === technique);
+const ofTechnique = (points, technique) =>
+  points.filter(point => data.variants[point.variant].technique === technique);
 
 function measureChoice(view, key, label, measures, prefix, redraw) {
   view.choices[key] = measures[0].id;
-  return choice(label, `${prefix}-${key}`, measureOptions(measures), measures[0].id,
-    value => { view.choices[key] = value; redraw(); });
+  return choice(label, `${prefix}-${key}`, measureOptions(measures), measures[0].id, value => {
+    view.choices[key] = value;
+    redraw();
+  });
 }
 
 function makePareto(view) {
-  const cost = measureNamed(costMeasures, view.choices.cost), error = measureNamed(errorMeasures, view.choices.error);
+  const cost = measureNamed(costMeasures, view.choices.cost),
+    error = measureNamed(errorMeasures, view.choices.error);
   const cases = view.filter.cases();
   const all = pointsOf(cases, cost, error);
   const points = all.filter(visible).sort((a, b) => a.x - b.x || a.y - b.y);
   const without = byVariant(cases).length - all.length;
-  const note = (without ? `${without} of the ${byVariant(cases).length} variants have no value of “${cost.name}” or of the error, and are not drawn. ` : '') +
-    `Shown: ${view.filter.words()}.`;
-  if (!points.length) return {label: `No variant has both of these here. ${note}`, points, techniques: techniquesIn(all)};
+  const note =
+    (without
+      ? `${without} of the ${byVariant(cases).length} variants have no value of “${cost.name}” or of the error, and are not drawn. `
+      : '') + `Shown: ${view.filter.words()}.`;
+  if (!points.length)
+    return {label: `No variant has both of these here. ${note}`, points, techniques: techniquesIn(all)};
   // What is below the least error that is drawn is no better for it.
-  const front = paretoFront(points.map(point => ({...point, y: Math.max(point.y, error.floor ?? 0), point}))).map(({point}) => point);
-  points.forEach(point => { point.onFront = front.includes(point); });
-  const xAxis = axisFor(cost, points.map(point => point.x)), yAxis = axisFor(error, points.map(point => point.y));
-  const datasets = techniquesIn(points).map(technique => series(technique, ofTechnique(points, technique), xAxis, yAxis, false));
-  const placed = front.map(point => ({x: xAxis.place(point.x), y: yAxis.place(point.y), value: point, case: point.case}));
-  datasets.push({label: 'Pareto front', type: 'line', data: placed, stepped: 'before', showLine: true, borderColor: css('ink'),
-    borderWidth: 1.5, radius: 0, hitRadius: 0, hoverRadius: 0, order: 1});
-  const name = point => [data.variants[point.variant].technique, Object.values(data.variants[point.variant].knobs).join(', ')].filter(Boolean).join(' ');
+  const front = paretoFront(
+    points.map(point => ({...point, y: Math.max(point.y, error.floor ?? 0), point})),
+  ).map(({point}) => point);
+  points.forEach(point => {
+    point.onFront = front.includes(point);
+  });
+  const xAxis = axisFor(
+      cost,
+      points.map(point => point.x),
+    ),
+    yAxis = axisFor(
+      error,
+      points.map(point => point.y),
+    );
+  const datasets = techniquesIn(points).map(technique =>
+    series(technique, ofTechnique(points, technique), xAxis, yAxis, false),
+  );
+  const placed = front.map(point => ({
+    x: xAxis.place(point.x),
+    y: yAxis.place(point.y),
+    value: point,
+    case: point.case,
+  }));
+  datasets.push({
+    label: 'Pareto front',
+    type: 'line',
+    data: placed,
+    stepped: 'before',
+    showLine: true,
+    borderColor: css('ink'),
+    borderWidth: 1.5,
+    radius: 0,
+    hitRadius: 0,
+    hoverRadius: 0,
+    order: 1,
+  });
+  const name = point =>
+    [data.variants[point.variant].technique, Object.values(data.variants[point.variant].knobs).join(', ')]
+      .filter(Boolean)
+      .join(' ');
   return {
-    label: `${error.name} against ${cost.name}; ${view.filter.words()}`, note, points, techniques: techniquesIn(all),
-    columns: [...caseColumns, {name: `${cost.name} (${cost.unit})`, number: true, of: row => row.x},
+    label: `${error.name} against ${cost.name}; ${view.filter.words()}`,
+    note,
+    points,
+    techniques: techniquesIn(all),
+    columns: [
+      ...caseColumns,
+      {name: `${cost.name} (${cost.unit})`, number: true, of: row => row.x},
       {name: `${error.name} (${error.unit})`, number: true, of: row => row.y},
-      {name: 'On the front', of: row => row.onFront ? 'yes' : 'no'}, commandColumn],
-    config: {data: {datasets}, options: {scales: {x: xAxis, y: yAxis}, plugins: {
-      frontLabels: {avoid: points.map(point => ({x: xAxis.place(point.x), y: yAxis.place(point.y)})), points: placed.map(point => ({...point, text: name(point.value)}))},
-      tooltip: tooltipOf(raw => [variantName(data.variants[raw.value.variant]), `${error.name}: ${plain(raw.value.y)} ${error.unit}`, `${cost.name}: ${plain(raw.value.x)} ${cost.unit}`])}},
-      plugins: [frontLabels]},
+      {name: 'On the front', of: row => (row.onFront ? 'yes' : 'no')},
+      commandColumn,
+    ],
+    config: {
+      data: {datasets},
+      options: {
+        scales: {x: xAxis, y: yAxis},
+        plugins: {
+          frontLabels: {
+            avoid: points.map(point => ({x: xAxis.place(point.x), y: yAxis.place(point.y)})),
+            points: placed.map(point => ({...point, text: name(point.value)})),
+          },
+          tooltip: tooltipOf(raw => [
+            variantName(data.variants[raw.value.variant]),
+            `${error.name}: ${plain(raw.value.y)} ${error.unit}`,
+            `${cost.name}: ${plain(raw.value.x)} ${cost.unit}`,
+          ]),
+        },
+      },
+      plugins: [frontLabels],
+    },
   };
 }
 
 // Lines of one error over an axis of numbers, one for each group of cases.
 function makeLines(view, {groups, xName, xOf, error, columns, note}) {
-  const points = [], lines = [];
+  const points = [],
+    lines = [];
   for (const {technique, name, cases} of groups) {
     const own = [];
     for (const x of valuesOf(cases, xOf)) {
       const here = cases.filter(item => xOf(item) === x);
       const y = greatest(here.map(error.of));
-      if (y != null) own.push({x, y, line: name, variant: here[0].variant, case: here.find(item => error.of(item) === y)});
+      if (y != null)
+        own.push({x, y, line: name, variant: here[0].variant, case: here.find(item => error.of(item) === y)});
     }
     points.push(...own);
     if (own.length) lines.push({technique, name, own});
   }
   const shown = points.filter(visible);
-  if (!shown.length) return {label: 'There is nothing to draw with these choices.', points: shown, techniques: techniquesIn(points)};
+  if (!shown.length)
+    return {
+      label: 'There is nothing to draw with these choices.',
+      points: shown,
+      techniques: techniquesIn(points),
+    };
   const measure = {id: 'x', name: xName, unit: '', floor: null};
-  const xAxis = axisFor(measure, shown.map(point => point.x), xName), yAxis = axisFor(error, shown.map(point => point.y));
-  const datasets = lines.filter(line => !hiddenTechniques.has(line.technique))
+  const xAxis = axisFor(
+      measure,
+      shown.map(point => point.x),
+      xName,
+    ),
+    yAxis = axisFor(
+      error,
+      shown.map(point => point.y),
+    );
+  const datasets = lines
+    .filter(line => !hiddenTechniques.has(line.technique))
     .map(line => ({...series(line.technique, line.own, xAxis, yAxis, true), label: line.name}));
   return {
-    label: `${error.name} against ${xName}; ${view.filter.words()}`, note, points: shown, techniques: techniquesIn(points),
-    columns: [...caseColumns, {name: xName, number: true, of: row => row.x},
-      {name: `${error.name} (${error.unit})`, number: true, of: row => row.y}, ...(columns ?? []), commandColumn],
+    label: `${error.name} against ${xName}; ${view.filter.words()}`,
+    note,
+    points: shown,
+    techniques: techniquesIn(points),
+    columns: [
+      ...caseColumns,
+      {name: xName, number: true, of: row => row.x},
+      {name: `${error.name} (${error.unit})`, number: true, of: row => row.y},
+      ...(columns ?? []),
+      commandColumn,
+    ],
     xAxis,
-    config: {data: {datasets}, options: {scales: {x: xAxis, y: yAxis}, plugins: {
-      tooltip: tooltipOf(raw => [raw.value.line, `${xName}: ${plain(raw.value.x)}`, `${error.name}: ${plain(raw.value.y)} ${error.unit}`])}}},
+    config: {
+      data: {datasets},
+      options: {
+        scales: {x: xAxis, y: yAxis},
+        plugins: {
+          tooltip: tooltipOf(raw => [
+            raw.value.line,
+            `${xName}: ${plain(raw.value.x)}`,
+            `${error.name}: ${plain(raw.value.y)} ${error.unit}`,
+          ]),
+        },
+      },
+    },
   };
 }
 
 // Which variants are lines: one of each technique by its number of steps, or all of one technique.
 function lineChoices() {
-  const options = [['few', 'each technique, with its fewest steps'], ['default', 'each technique, with a middle number of steps'], ['many', 'each technique, with its most steps']];
+  const options = [
+    ['few', 'each technique, with its fewest steps'],
+    ['default', 'each technique, with a middle number of steps'],
+    ['many', 'each technique, with its most steps'],
+  ];
   return [...options, ...techniques.map(technique => [`only:${technique}`, `${technique}, all settings`])];
 }
 
 function variantsChosen(value) {
   if (value.startsWith('only:'))
-    return data.variants.map((_, index) => index).filter(index => data.variants[index].technique === value.slice(5));
+    return data.variants
+      .map((_, index) => index)
+      .filter(index => data.variants[index].technique === value.slice(5));
   return techniques.map(technique => {
     const knob = stepsKnob(technique);
-    const own = data.variants.map((_, index) => index).filter(index => data.variants[index].technique === technique);
+    const own = data.variants
+      .map((_, index) => index)
+      .filter(index => data.variants[index].technique === technique);
     own.sort((a, b) => Number(data.variants[a].knobs[knob] ?? 0) - Number(data.variants[b].knobs[knob] ?? 0));
     return own[value === 'few' ? 0 : value === 'many' ? own.length - 1 : Math.floor((own.length - 1) / 2)];
   });
@@ -198,27 +386,63 @@ function makeElevation(view) {
   const error = measureNamed(errorMeasures, view.choices.error);
   const cases = view.filter.cases();
   const groups = variantsChosen(view.choices.lines).map(index => ({
-    technique: data.variants[index].technique, name: variantName(data.variants[index]),
-    cases: cases.filter(item => item.variant === index)}));
-  const made = makeLines(view, {groups, error, xName: 'elevation of the view (degrees)', xOf: c => c.view.elevation,
-    note: `Shown: ${[view.filter.words(), groups.filter(group => group.cases.length).length + ' variants'].filter(Boolean).join(', ')}.`});
-  if (made.xAxis) Object.assign(made.xAxis, {beginAtZero: false, reverse: true, min: 0, max: 90, ticks: {...made.xAxis.ticks, stepSize: 15, maxTicksLimit: 10}});
+    technique: data.variants[index].technique,
+    name: variantName(data.variants[index]),
+    cases: cases.filter(item => item.variant === index),
+  }));
+  const made = makeLines(view, {
+    groups,
+    error,
+    xName: 'elevation of the view (degrees)',
+    xOf: c => c.view.elevation,
+    note: `Shown: ${[view.filter.words(), groups.filter(group => group.cases.length).length + ' variants'].filter(Boolean).join(', ')}.`,
+  });
+  if (made.xAxis)
+    Object.assign(made.xAxis, {
+      beginAtZero: false,
+      reverse: true,
+      min: 0,
+      max: 90,
+      ticks: {...made.xAxis.ticks, stepSize: 15, maxTicksLimit: 10},
+    });
   return made;
 }
 
 function makeMissed(view) {
   const error = measureNamed(errorMeasures, 'missed');
   const cases = view.filter.cases();
-  const groups = techniques.filter(stepsKnob).map(technique => ({technique, name: technique,
-    cases: cases.filter(item => variantOf(item).technique === technique && stepsKnob(technique) in variantOf(item).knobs)}));
+  const groups = techniques
+    .filter(stepsKnob)
+    .map(technique => ({
+      technique,
+      name: technique,
+      cases: cases.filter(
+        item => variantOf(item).technique === technique && stepsKnob(technique) in variantOf(item).knobs,
+      ),
+    }));
   const stepsOf = item => Number(variantOf(item).knobs[stepsKnob(variantOf(item).technique)]);
-  const made = makeLines(view, {groups, error, xName: 'steps, by the knob that counts them', xOf: stepsOf,
+  const made = makeLines(view, {
+    groups,
+    error,
+    xName: 'steps, by the knob that counts them',
+    xOf: stepsOf,
     columns: [{name: 'Knob', of: row => stepsKnob(data.variants[row.variant].technique)}],
-    note: `The knobs: ${groups.map(group => `${group.technique} ${stepsKnob(group.technique)}`).join(', ')}. ` +
-      `Techniques whose steps never varied are left out. Shown: ${view.filter.words()}.`});
-  if (made.xAxis) Object.assign(made.xAxis, {type: 'logarithmic', beginAtZero: false, min: Math.min(...made.points.map(point => point.x)) / 1.15, max: Math.max(...made.points.map(point => point.x)) * 1.15, afterBuildTicks: axis => {
-    axis.ticks = [1, 2, 4, 8, 16, 32, 64, 128, 256, 512].filter(value => value >= axis.min && value <= axis.max).map(value => ({value}));
-  }});
+    note:
+      `The knobs: ${groups.map(group => `${group.technique} ${stepsKnob(group.technique)}`).join(', ')}. ` +
+      `Techniques whose steps never varied are left out. Shown: ${view.filter.words()}.`,
+  });
+  if (made.xAxis)
+    Object.assign(made.xAxis, {
+      type: 'logarithmic',
+      beginAtZero: false,
+      min: Math.min(...made.points.map(point => point.x)) / 1.15,
+      max: Math.max(...made.points.map(point => point.x)) * 1.15,
+      afterBuildTicks: axis => {
+        axis.ticks = [1, 2, 4, 8, 16, 32, 64, 128, 256, 512]
+          .filter(value => value >= axis.min && value <= axis.max)
+          .map(value => ({value}));
+      },
+    });
   if (made.xAxis) made.xAxis.ticks = {...made.xAxis.ticks, callback: plain2, autoSkip: false};
   return made;
 }

@@ -1,0 +1,19 @@
+// How long a pixel takes on the device, of every variant of a page: what no stored result holds,
+// because a time belongs to a machine and an hour.
+#pragma once
+
+#include "src/measure/map_set.h"
+#include "src/report/page_data.h"
+
+namespace intaglio::report {
+
+// Draws each variant that the device runs `rounds` times, one after the other round after round, so
+// that what else the machine does falls on all alike; on the first map that is not empty, from the
+// view of the data nearest to 30 degrees.  variants[i].time = {ratio, spread}: the median over the
+// rounds of the time relative to the first such variant's in the same round, and half the distance
+// of the quartiles; made_by.time says all of this.  Nothing where no map is known, or where
+// the cases have times of their own.
+Status add_times(PageData& page, const dsl::Catalogue& catalogue,
+                 const std::vector<measure::MapSet>& maps, int rounds);
+
+}  // namespace intaglio::report
