@@ -19,20 +19,21 @@ int find_or_add(std::vector<Declaration>& declarations, Declaration declaration)
         return static_cast<int>(declarations.size()) - 1;
     }
     if (!(*found == declaration))
-        Recorder::current().fail(
-            input_error("declared-twice",
-                        fmt::format("'{}' is declared twice, with different types, filters or comments",
-                                    declaration.name)));
+        Recorder::current().fail(input_error(
+            "declared-twice",
+            fmt::format("'{}' is declared twice, with different types, filters or comments",
+                        declaration.name)));
     return static_cast<int>(found - declarations.begin());
 }
 
 }  // namespace
 
 template <int Dimension>
-Sampler<Dimension>::Sampler(std::string_view name, std::string_view comment, Filter filter)
-    : slot_(find_or_add(
-          Recorder::current().module().samplers,
-          ir::Sampler{std::string(name), Dimension, std::string(comment), filter})) {}
+Sampler<Dimension>::Sampler(std::string_view name, std::string_view comment, Filter filter,
+                            std::string_view baked)
+    : slot_(find_or_add(Recorder::current().module().samplers,
+                        ir::Sampler{std::string(name), Dimension, std::string(comment), filter,
+                                    std::string(baked)})) {}
 
 template <int Dimension>
 float4 Sampler<Dimension>::sample_level(Float<Dimension> at, float1 level, Place place) const {

@@ -17,7 +17,9 @@ class Sampler {
     using Filter = ir::Sampler::Filter;
     // Nearest: one texel of one level, whatever the coordinate: exact reads of maps that must not
     // be mixed.  A texel's own value lies at (index + 0.5) / size.
-    Sampler(std::string_view name, std::string_view comment, Filter filter = Filter::Linear);
+    // `baked`: of a baked map, the settings that it must be baked with, "shininess=32".
+    Sampler(std::string_view name, std::string_view comment, Filter filter = Filter::Linear,
+            std::string_view baked = {});
 
     // The mip level is given; 0 is the finest.
     float4 sample_level(Float<Dimension> at, float1 level, Place place = Place::here()) const;

@@ -128,6 +128,8 @@ struct Sampler {
     int dimension = 2;  // 2, or 3: a volume
     std::string comment;
     Filter filter = Filter::Linear;
+    // Of a baked map: the settings it must be baked with, "shininess=32"; empty: any.
+    std::string baked = {};
     friend bool operator==(const Sampler&, const Sampler&) = default;
 };
 

@@ -204,6 +204,7 @@ class Parser {
         take();
         sampler.dimension = *number;
         if (accept_word("nearest")) sampler.filter = Sampler::Filter::Nearest;
+        if (accept_word("baked")) optional_string(sampler.baked);
         optional_string(sampler.comment);
         return true;
     }

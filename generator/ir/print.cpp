@@ -87,8 +87,9 @@ class Printer {
                          count, optional_string(uniform.comment));
         }
         for (const Sampler& sampler : module_.samplers)
-            text_.format("sampler {} {}d{}{}", bare_or_quoted(sampler.name), sampler.dimension,
+            text_.format("sampler {} {}d{}{}{}", bare_or_quoted(sampler.name), sampler.dimension,
                          sampler.filter == Sampler::Filter::Nearest ? " nearest" : "",
+                         sampler.baked.empty() ? "" : " baked " + quoted(sampler.baked),
                          optional_string(sampler.comment));
         for (const std::string& file : module_.files) text_.format("file {}", quoted(file));
         for (const Step& step : module_.steps)

@@ -8,6 +8,7 @@
 // matrix swizzles crash glslang 12 in process.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -36,6 +37,8 @@ struct Program {
     // Textures to be given without mipmaps: read at level 0, where the language leaves the level to
     // the hardware.
     std::set<std::string> one_level{};
+    // The settings that textures must be baked with, "shininess=32", by name.
+    std::map<std::string, std::string> baked{};
 };
 
 // Both stages of a draw, so that they agree in locations, bindings and uniform blocks.  GLSL

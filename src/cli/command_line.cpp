@@ -12,20 +12,21 @@
 namespace intaglio::cli {
 namespace {
 
-void add_variant(CLI::App& command, VariantOptions& options, bool with_target = true) {
+void add_settings(CLI::App& command, std::vector<std::string>& knobs,
+                  std::vector<std::string>& loops) {
+    command.add_option("-D,--define", knobs, "Knob: taps=12 (repeatable)")->allow_extra_args(false);
+    command.add_option("--loop", loops, "Form of a loop: march=unroll or march=loop (repeatable)")
+        ->allow_extra_args(false);
+}
+
+void add_variant(CLI::App& command, VariantOptions& options) {
     command
         .add_option("surface", options.surface,
                     "A preset, a search, or a composition: search=steep_parallax,shadow=march")
         ->required();
-    if (with_target)
-        command.add_option("-T,--target", options.target, "Target; see `intaglio list targets`")
-            ->required();
-    command.add_option("-D,--define", options.knobs, "Knob: taps=12 (repeatable)")
-        ->allow_extra_args(false);
-    command
-        .add_option("--loop", options.loops,
-                    "Form of a loop: march=unroll or march=loop (repeatable)")
-        ->allow_extra_args(false);
+    command.add_option("-T,--target", options.target, "Target; see `intaglio list targets`")
+        ->required();
+    add_settings(command, options.knobs, options.loops);
     command.add_flag("--per-vertex", options.per_vertex,
                      "Move affine functions of interpolants to the vertex stage");
     command.add_option("--split", options.split,
@@ -34,6 +35,27 @@ void add_variant(CLI::App& command, VariantOptions& options, bool with_target = 
 
 void add_pass(CLI::App& command, VariantOptions& options) {
     command.add_option("--pass", options.pass, "One pass of the split, from 1");
+}
+
+CLI::Option* add_baked(CLI::App& command, std::vector<std::string>& baked) {
+    return command
+        .add_option("--baked", baked,
+                    "A map that `intaglio bake` wrote, by its kind: cone=wall_cone.png "
+                    "(repeatable); baked in memory if not given")
+        ->allow_extra_args(false);
+}
+
+void add_view(CLI::App& command, ViewOptions& options) {
+    command
+        .add_option("--elevation", options.elevation,
+                    "Of the eye, degrees above the surface or horizon")
+        ->capture_default_str();
+    command.add_option("--azimuth", options.azimuth, "Of the eye, degrees")->capture_default_str();
+    command.add_option("--light-elevation", options.light_elevation, "Degrees")
+        ->capture_default_str();
+    command.add_option("--light-azimuth", options.light_azimuth, "Degrees")->capture_default_str();
+    command.add_option("--device", options.device,
+                       "Part of a Vulkan device's name; lavapipe if not given");
 }
 
 void add_map(CLI::App& command, MapOptions& options) {
@@ -46,6 +68,7 @@ void add_map(CLI::App& command, MapOptions& options) {
         ->excludes(height);
     command.add_option("--normal", options.normal,
                        "Normal map, PNG; baked from the heights if not given");
+    add_baked(command, options.baked);
     command.add_option("--colour,--color", options.colour,
                        "Colour map, PNG; a shade of the heights if not given");
     command.add_option("--map-size", options.map_size, "Size of a procedural map")
@@ -165,10 +188,7 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
             ->add_option("-T,--target", options->targets,
                          "Target (repeatable); every target if not given")
             ->allow_extra_args(false);
-        command->add_option("-D,--define", options->knobs, "Knob: taps=12 (repeatable)")
-            ->allow_extra_args(false);
-        command->add_option("--loop", options->loops, "Form of a loop: march=unroll (repeatable)")
-            ->allow_extra_args(false);
+        add_settings(*command, options->knobs, options->loops);
         command->add_flag("-v,--verbose", options->verbose, "Every step of every witness");
         command->callback([&chosen, &catalogue, options] {
             chosen = [&, options] { return validate(catalogue, *options); };
@@ -315,16 +335,9 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
                          "Squares along a texel's side, of displaced geometry")
             ->capture_default_str();
         command->add_option("--layers", options->layers, "How many shells")->capture_default_str();
-        command
-            ->add_option("--elevation", options->elevation,
-                         "Of the eye, degrees above the surface or horizon")
-            ->capture_default_str();
-        command->add_option("--azimuth", options->azimuth, "Of the eye, degrees")
-            ->capture_default_str();
-        command->add_option("--light-elevation", options->light_elevation, "Degrees")
-            ->capture_default_str();
-        command->add_option("--light-azimuth", options->light_azimuth, "Degrees")
-            ->capture_default_str();
+        command->add_flag("--fins", options->fins,
+                          "Strips below the edges of shells, at silhouettes");
+        add_view(*command, options->view);
         command
             ->add_option("--distance", options->distance,
                          "Of the eye from the mesh's centre; 0: as suits the mesh")
@@ -332,8 +345,6 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
         command->add_option("--repeat", options->repeat, "Repetitions of the map over the mesh")
             ->capture_default_str();
         command->add_option("--size", options->size, "Of the picture")->capture_default_str();
-        command->add_option("--device", options->device,
-                            "Part of a Vulkan device's name; lavapipe if not given");
         command->add_flag("--validation", options->validation, "With the Vulkan validation layers");
         command->add_option("--error-map", options->error_map,
                             "Also a picture of the hit errors (with --mesh map)");
@@ -361,19 +372,10 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
             "split", "The passes of a split surface, and the error of the format between them");
         add_variant(*command, options->variant);
         add_map(*command, options->map);
-        command->add_option("--elevation", options->elevation, "Of the eye, degrees")
-            ->capture_default_str();
-        command->add_option("--azimuth", options->azimuth, "Of the eye, degrees")
-            ->capture_default_str();
-        command->add_option("--light-elevation", options->light_elevation, "Degrees")
-            ->capture_default_str();
-        command->add_option("--light-azimuth", options->light_azimuth, "Degrees")
-            ->capture_default_str();
+        add_view(*command, options->view);
         command->add_option("--size", options->size, "Pixels a side")
             ->capture_default_str()
             ->check(CLI::Range(1, 4096));
-        command->add_option("--device", options->device,
-                            "Part of a Vulkan device's name; lavapipe if not given");
         command->callback([&chosen, &catalogue, options] {
             chosen = [&, options] { return split_table(catalogue, *options); };
         });
@@ -386,8 +388,9 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
         command
             ->add_option("-o,--output", options->output, "Folder for results.json and results.csv")
             ->required();
-        command->add_option("--height", options->height,
-                            "A height map in place of the scene's maps");
+        CLI::Option* height = command->add_option("--height", options->height,
+                                                  "A height map in place of the scene's maps");
+        add_baked(*command, options->baked)->needs(height);
         command->add_option("--size", options->size, "Pixels a side in place of the scene's")
             ->check(CLI::IsMember({8, 16, 32, 64, 128, 256, 512, 1024, 2048}));
         command->add_option("--device", options->device,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -121,6 +122,7 @@ Status write_sheets(const dsl::Catalogue& catalogue, const SheetOptions& options
 // Which maps a surface wears.
 struct MapOptions {
     std::string height, normal, colour;  // files; empty: made from the heights
+    std::vector<std::string> baked;      // "cone=wall_cone.png"
     std::string maker;                   // a procedural map in place of files
     std::string map_size = "256x256";    // of a procedural map
     std::uint32_t seed = 1;              // of a procedural map
@@ -128,6 +130,9 @@ struct MapOptions {
     std::string filtering = "float";  // float, native
 };
 Result<measure::MapSet> map_set_of(const MapOptions& options);
+// "cone=wall_cone.png" by kind.  Error "baked-syntax".
+Result<std::map<std::string, std::filesystem::path>> baked_files(
+    const std::vector<std::string>& options);
 Result<measure::Filtering> filtering_of(const std::string& name);
 
 // The picture between the passes of a split surface.
@@ -136,19 +141,25 @@ struct PassOptions {
     double range = 0;                // greatest offset, texture units; 0: as the view needs
 };
 
+// From where a surface is seen and lit, in degrees, and what draws it.
+struct ViewOptions {
+    double elevation = 40, azimuth = 250, light_elevation = 45, light_azimuth = 20;
+    std::string device = {};  // part of a Vulkan device's name; empty: lavapipe
+};
+
 struct RunOptions {
     VariantOptions variant;
     MapOptions map;
+    ViewOptions view;
     std::string mesh =
         "quad";  // map: the whole map seen from infinity; quad, sphere, torus: in perspective
     // displaced: the relief as triangles, without a search; shells: as layers.
     std::string geometry = "polygon";
     int subdivisions = 2;  // of a texel, displaced
     int layers = 16;       // shells
-    double elevation = 40, azimuth = 250, light_elevation = 45, light_azimuth = 20, distance = 0,
-           repeat = 1;
+    bool fins = false;     // of shells
+    double distance = 0, repeat = 1;
     std::string size = "512x512";
-    std::string device;
     bool validation = false;
     std::string error_map;  // a file for the map of hit errors; only with mesh = map
     // As sweeps measure it, with mesh = map: fp24 and fp16 by the interpreter or the evaluator.
@@ -162,18 +173,18 @@ Status run(const dsl::Catalogue& catalogue, const RunOptions& options);
 struct SplitOptions {
     VariantOptions variant;
     MapOptions map;
-    double elevation = 40, azimuth = 250, light_elevation = 45, light_azimuth = 20;
+    ViewOptions view;
     int size = 256;
-    std::string device;
 };
 // The passes of a split surface with their cost, and what each format between them costs in error.
 Status split_table(const dsl::Catalogue& catalogue, const SplitOptions& options);
 
 struct MeasureOptions {
     std::string scene;
-    std::string output;  // folder
-    std::string height;  // a map in place of the scene's
-    int size = 0;        // pixels a side in place of the scene's; 0: the scene's
+    std::string output;              // folder
+    std::string height;              // a map in place of the scene's
+    std::vector<std::string> baked;  // "cone=wall_cone.png", of that map
+    int size = 0;                    // pixels a side in place of the scene's; 0: the scene's
     std::string device;
     bool validation = false;
 };

@@ -1,11 +1,11 @@
 // The hard suite from the command line.
 #include "src/cli/hard.h"
 
-#include <unistd.h>
-
 #include <fmt/format.h>
+#include <functional>
 
 #include "src/cli/commands.h"
+#include "src/cli/progress.h"
 #include "src/measure/hard.h"
 #include "src/report/hard_table.h"
 #include "src/report/stability_page.h"
@@ -30,12 +30,11 @@ Status hard(const dsl::Catalogue& catalogue, const HardOptions& options) {
                                        options.only));
     const Result<vulkan::Device> device = vulkan::Device::create({options.device, false});
     if (!device) return device.error();
-    const bool terminal = isatty(STDERR_FILENO);
-    const Result<measure::HardSuite> suite = measure::run_hard_suite(
-        *device, catalogue, rows, measure::hard_cases(), [&](int done, int all) {
-            if (terminal)
-                fmt::print(stderr, "\r{} of {} techniques{}", done, all, done == all ? "\n" : "");
-        });
+    const Result<measure::HardSuite> suite = [&] {
+        ProgressLine progress("judged", "techniques");
+        return measure::run_hard_suite(*device, catalogue, rows, measure::hard_cases(),
+                                       std::ref(progress));
+    }();
     if (!suite) return suite.error();
     return write_product(options.output, report::hard_page(*suite), false);
 }

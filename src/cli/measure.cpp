@@ -1,12 +1,12 @@
 // `intaglio measure`.
-#include <unistd.h>
-
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "src/cli/commands.h"
+#include "src/cli/progress.h"
 #include "src/maps/png.h"
 #include "src/measure/measure.h"
 #include "src/measure/shot.h"
@@ -61,7 +61,9 @@ Status write_case_sheets(const dsl::Catalogue& catalogue, const measure::Plan& p
 
 Status measure_scene(const dsl::Catalogue& catalogue, const MeasureOptions& options) {
     std::optional<measure::MapFiles> own_map;
-    if (!options.height.empty()) own_map = measure::MapFiles{options.height, {}, {}};
+    const Result<std::map<std::string, std::filesystem::path>> baked = baked_files(options.baked);
+    if (!baked) return baked.error();
+    if (!options.height.empty()) own_map = measure::MapFiles{options.height, {}, {}, *baked};
     Result<scene::Scene> scene = scene::read_scene_with_sources(options.scene, own_map);
     if (!scene) return scene.error();
     measure::Plan& plan = scene->plan;
@@ -76,13 +78,10 @@ Status measure_scene(const dsl::Catalogue& catalogue, const MeasureOptions& opti
         return input_error("file-unwritable",
                            fmt::format("cannot make this folder: {}", failure.message()),
                            options.output);
-    const bool terminal = isatty(STDERR_FILENO);
-    const Result<measure::Measurement> measurement =
-        measure::measure(catalogue, plan, [&](int done, int all) {
-            if (terminal)
-                fmt::print(stderr, "\rmeasured {} of {} views{}", done, all,
-                           done == all ? "\n" : "");
-        });
+    const Result<measure::Measurement> measurement = [&] {
+        ProgressLine progress("measured", "views");
+        return measure::measure(catalogue, plan, std::ref(progress));
+    }();
     if (!measurement) return measurement.error();
     const std::string table = report::table(plan, *measurement);
     for (const auto& [name, text] :

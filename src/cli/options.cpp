@@ -70,6 +70,21 @@ Result<measure::Filtering> filtering_of(const std::string& name) {
     return input_error("filtering", fmt::format("filtering is float or native, not '{}'", name));
 }
 
+Result<std::map<std::string, std::filesystem::path>> baked_files(
+    const std::vector<std::string>& options) {
+    std::map<std::string, std::filesystem::path> files;
+    for (const std::string& option : options) {
+        const std::size_t equals = option.find('=');
+        if (equals == std::string::npos || equals == 0 || equals + 1 == option.size())
+            return input_error("baked-syntax",
+                               fmt::format("'{}' is not of the form cone=wall_cone.png", option));
+        const std::string kind = option.substr(0, equals);
+        if (!files.emplace(kind, option.substr(equals + 1)).second)
+            return input_error("baked-syntax", fmt::format("two {} maps are given", kind));
+    }
+    return files;
+}
+
 Result<measure::MapSet> map_set_of(const MapOptions& options) {
     if (!(options.scale >= 0 && options.scale <= 1))
         return input_error(
@@ -81,16 +96,26 @@ Result<measure::MapSet> map_set_of(const MapOptions& options) {
         return input_error(
             "no-map",
             "a height map is needed: --height MAP.png, or --maker NAME for a procedural one");
+    const Result<std::map<std::string, std::filesystem::path>> baked = baked_files(options.baked);
+    if (!baked) return baked.error();
+    if (baked->contains("normal") && !options.normal.empty())
+        return input_error("option-value",
+                           "a normal map is given by --normal or by --baked, not "
+                           "by both");
     if (options.maker.empty()) {
-        measure::MapFiles files{options.height, {}, {}};
+        measure::MapFiles files{options.height, {}, {}, *baked};
         if (!options.normal.empty()) files.normal = options.normal;
         if (!options.colour.empty()) files.colour = options.colour;
         return measure::load_map_set(files, options.scale);
     }
     const Result<Size> size = parse_size(options.map_size);
     if (!size) return size.error();
-    return measure::make_map_set(options.maker, size->width, size->height, options.scale,
-                                 options.seed);
+    Result<measure::MapSet> set = measure::make_map_set(options.maker, size->width, size->height,
+                                                        options.scale, options.seed);
+    if (!set) return set.error();
+    if (Status status = measure::add_baked_files(*set, *baked, options.scale); !status)
+        return status.error();
+    return set;
 }
 
 Status write_product(const std::string& output, std::string_view bytes, bool binary) {

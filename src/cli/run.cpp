@@ -32,15 +32,19 @@ Status check_options(const RunOptions& options) {
         return input_error("option-value",
                            "--error-map and --split are of reliefs on polygons: leave out "
                            "--geometry");
+    if (options.fins && (options.geometry != "shells" || options.mesh == "map"))
+        return input_error("option-value",
+                           "--fins are for the silhouettes of shells: --geometry shells on a quad, "
+                           "sphere or torus");
     if (!options.error_map.empty() && options.mesh != "map")
         return input_error("option-value",
                            "--error-map needs --mesh map: the reference knows flat reliefs");
-    for (double azimuth : {options.azimuth, options.light_azimuth})
+    for (double azimuth : {options.view.azimuth, options.view.light_azimuth})
         if (!std::isfinite(azimuth))
             return input_error(
                 "option-value",
                 fmt::format("an azimuth is a number of degrees; {} is not", azimuth));
-    for (double elevation : {options.elevation, options.light_elevation})
+    for (double elevation : {options.view.elevation, options.view.light_elevation})
         if (!(elevation >= -90 && elevation <= 90))
             return input_error(
                 "option-value",
@@ -71,7 +75,8 @@ Ground ground_of(const RunOptions& options) {
 
 // How far a parallel view of the map sees beyond its edges.
 double margin_of(const RunOptions& options) {
-    return measure::reach_of({options.elevation, options.azimuth}, options.map.scale) + 0.01;
+    return measure::reach_of({options.view.elevation, options.view.azimuth}, options.map.scale) +
+           0.01;
 }
 
 vulkan::Mesh smooth_mesh(const RunOptions& options) {
@@ -117,7 +122,10 @@ Result<vulkan::Mesh> mesh_of(const RunOptions& options, const measure::MapSet& s
         return displaced_mesh(options, set.height_field(reference::FilterWeights::Exact));
     vulkan::Mesh mesh = smooth_mesh(options);
     if (options.geometry == "polygon") return mesh;
-    return measure::shells_of(mesh, options.layers, options.map.scale * ground_of(options).span);
+    const double depth = options.map.scale * ground_of(options).span;
+    Result<vulkan::Mesh> shells = measure::shells_of(mesh, options.layers, depth);
+    if (!shells || !options.fins) return shells;
+    return measure::add_fins(std::move(*shells), mesh, depth);
 }
 
 Result<measure::MeshView> mesh_view(const RunOptions& options, Size size, vulkan::Mesh mesh) {
@@ -136,11 +144,12 @@ Result<measure::MeshView> mesh_view(const RunOptions& options, Size size, vulkan
         const double e = elevation * std::numbers::pi / 180, a = azimuth * std::numbers::pi / 180;
         return std::array{std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)};
     };
-    const std::array<double, 3> to_eye = exact(options.elevation, options.azimuth);
+    const std::array<double, 3> to_eye = exact(options.view.elevation, options.view.azimuth);
     vulkan::Point eye{};
     for (std::size_t i = 0; i < 3; ++i)
         eye[i] = target[i] + static_cast<float>(distance * to_eye[i]);
-    const std::array<double, 3> to_light = exact(options.light_elevation, options.light_azimuth);
+    const std::array<double, 3> to_light =
+        exact(options.view.light_elevation, options.view.light_azimuth);
     for (std::size_t i = 0; i < 3; ++i) view.light[i] = static_cast<float>(to_light[i]);
     vulkan::Perspective perspective;
     perspective.aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
@@ -161,8 +170,8 @@ Status check_validation(const vulkan::Device& device) {
 
 measure::Shot shot_of(const RunOptions& options, Size size) {
     measure::Shot shot;
-    shot.view = {options.elevation, options.azimuth};
-    shot.light = {options.light_elevation, options.light_azimuth};
+    shot.view = {options.view.elevation, options.view.azimuth};
+    shot.light = {options.view.light_elevation, options.view.light_azimuth};
     shot.scale = options.map.scale;
     shot.width = size.width;
     shot.height = size.height;
@@ -204,14 +213,14 @@ measure::PreparePass with_shells(measure::PreparePass prepare) {
 VariantRequest request_on(const RunOptions& options, VariantRequest request) {
     if (options.geometry == "displaced")
         request.surface = dsl::with_part(request.surface, "search", "displaced");
-    if (options.geometry == "shells")
-        return measure::shells_request(std::move(request), options.layers);
-    return request;
+    if (options.geometry != "shells") return request;
+    request = measure::shells_request(std::move(request), options.layers);
+    return options.fins ? measure::with_fins(std::move(request)) : request;
 }
 
 // Fragments that shells cost at the pixels where they are.
 Status print_overdraw(const dsl::Catalogue& catalogue, VariantRequest surface, int layers,
-                      const measure::PreparePass& prepare) {
+                      bool fins, const measure::PreparePass& prepare) {
     const Result<std::vector<check::Program>> shaders =
         measure::link_passes(catalogue, measure::shells_request(std::move(surface), layers, true));
     if (!shaders) return shaders.error();
@@ -225,10 +234,10 @@ Status print_overdraw(const dsl::Catalogue& catalogue, VariantRequest surface, i
         covered += count > 0 ? 1 : 0;
         most = std::max<std::int64_t>(most, count);
     }
-    fmt::print(stderr, "{} shells: {:.3g} fragments a pixel, at most {}, over {} of {} pixels\n",
+    fmt::print(stderr, "{} shells: {:.3g} fragments a pixel, at most {}, over {} of {} pixels{}\n",
                layers,
                static_cast<double>(sum) / static_cast<double>(std::max<std::int64_t>(covered, 1)),
-               most, covered, fragments->size());
+               most, covered, fragments->size(), fins ? ", not counting fins" : "");
     return Done{};
 }
 
@@ -268,14 +277,14 @@ Status run(const dsl::Catalogue& techniques, const RunOptions& options) {
     const Result<measure::MapSet> set = map_set_of(options.map);
     if (!set) return set.error();
     const Result<vulkan::Device> device =
-        vulkan::Device::create({options.device, options.validation});
+        vulkan::Device::create({options.view.device, options.validation});
     if (!device) return device.error();
 
     const measure::Textures textures(*set, *filtering);
     measure::Shot shot = shot_of(options, *size);
     shot.format = *format;
     const bool flat = options.mesh == "map";
-    if (flat && !polygon && !(options.elevation > 0))
+    if (flat && !polygon && !(options.view.elevation > 0))
         return input_error("option-value",
                            "--geometry below a map is seen from above: "
                            "--elevation above 0");
@@ -298,8 +307,8 @@ Status run(const dsl::Catalogue& techniques, const RunOptions& options) {
     const Result<vulkan::Picture> picture = measure::draw_passes(*passes, code, prepare);
     if (!picture) return picture.error();
     if (options.geometry == "shells")
-        if (Status status =
-                print_overdraw(catalogue, *request_of(options.variant), options.layers, prepare);
+        if (Status status = print_overdraw(catalogue, *request_of(options.variant), options.layers,
+                                           options.fins, prepare);
             !status)
             return status;
     if (passes->size() > 1) {
@@ -321,6 +330,7 @@ Status run(const dsl::Catalogue& techniques, const RunOptions& options) {
         if (Status status = write_error_map(*errors, options.error_map, size->width); !status)
             return status;
     }
+    if (Status status = textures.baked->check_all_read(); !status) return status;
     if (Status status = check_validation(*device); !status) return status;
     return maps::write_png(options.output, report::to_image(*picture));
 }

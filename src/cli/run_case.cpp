@@ -49,8 +49,8 @@ Result<measure::Case> case_of(const RunOptions& options) {
     const Result<measure::Arithmetic> arithmetic = measure::arithmetic_named(options.arithmetic);
     if (!arithmetic) return arithmetic.error();
     return measure::Case{std::move(*request),
-                         {options.elevation, options.azimuth},
-                         {options.light_elevation, options.light_azimuth},
+                         {options.view.elevation, options.view.azimuth},
+                         {options.view.light_elevation, options.view.light_azimuth},
                          options.map.scale,
                          size->width,
                          *filtering,
@@ -86,8 +86,8 @@ Status write_error_map(const std::vector<measure::HitError>& errors, const std::
 Status run_case(const dsl::Catalogue& catalogue, const RunOptions& options) {
     const Result<measure::Case> what = case_of(options);
     if (!what) return what.error();
-    const Result<Pixel> pixel = parse_pixel(options.pixel.empty() ? "0,0" : options.pixel,
-                                            what->size);
+    const Result<Pixel> pixel =
+        parse_pixel(options.pixel.empty() ? "0,0" : options.pixel, what->size);
     if (!pixel) return pixel.error();
     Result<measure::MapSet> set = map_set_of(options.map);
     if (!set) return set.error();
@@ -95,7 +95,7 @@ Status run_case(const dsl::Catalogue& catalogue, const RunOptions& options) {
     map.set = std::move(*set);
     map.hash = measure::content_hash(map.set);
     Result<measure::Laboratory> laboratory =
-        measure::Laboratory::create(catalogue, {options.device, options.validation, 0});
+        measure::Laboratory::create(catalogue, {options.view.device, options.validation, 0});
     if (!laboratory) return laboratory.error();
     const Result<measure::CaseHits> hits = laboratory->hits(*what, map);
     if (!hits) return hits.error();

@@ -1,12 +1,11 @@
 // `intaglio sheet`: all searches side by side.
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "src/cli/commands.h"
+#include "src/cli/progress.h"
 #include "src/maps/png.h"
 #include "src/measure/measure.h"
 #include "src/report/exhibit.h"
@@ -189,14 +188,12 @@ Status write_sheets(const dsl::Catalogue& catalogue, const SheetOptions& options
         sheets[i].scale = report::error_strip(2 * options.size);
         for (const Compiled& search : *searches) sheets[i].rows.push_back({search.name, {}});
     }
-    const bool terminal = isatty(STDERR_FILENO);
+    ProgressLine progress("drew", "maps");
     for (std::size_t i = 0; i < sets->size(); ++i) {
         if (Status status = add_column(*device, *searches, std::move((*sets)[i]), options, sheets);
             !status)
             return status;
-        if (terminal)
-            fmt::print(stderr, "\r{} of {} maps{}", i + 1, sets->size(),
-                       i + 1 == sets->size() ? "\n" : "");
+        progress(static_cast<int>(i) + 1, static_cast<int>(sets->size()));
     }
     for (std::size_t i = 0; i < sheets.size(); ++i) {
         const Result<maps::Image> sheet = report::grid_sheet(sheets[i]);

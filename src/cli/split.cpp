@@ -55,12 +55,12 @@ Status split_table(const dsl::Catalogue& catalogue, const SplitOptions& options)
     const Result<measure::MapSet> set = map_set_of(options.map);
     if (!set) return set.error();
     if (Status status = print_passes(catalogue, *request); !status) return status;
-    const Result<vulkan::Device> device = vulkan::Device::create({options.device, false});
+    const Result<vulkan::Device> device = vulkan::Device::create({options.view.device, false});
     if (!device) return device.error();
     const measure::Textures textures(*set, *filtering);
     measure::Shot shot;
-    shot.view = {options.elevation, options.azimuth};
-    shot.light = {options.light_elevation, options.light_azimuth};
+    shot.view = {options.view.elevation, options.view.azimuth};
+    shot.light = {options.view.light_elevation, options.view.light_azimuth};
     shot.scale = options.map.scale;
     shot.width = shot.height = options.size;
     const Result<std::vector<measure::FormatError>> errors = measure::shot_formats(

@@ -1,11 +1,11 @@
 // `intaglio table`: what each Direct3D 9 profile makes of every technique and knob, in Markdown.
-#include <unistd.h>
-
 #include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
 
 #include "src/cli/commands.h"
+#include "src/cli/progress.h"
 #include "src/variant/settings.h"
 
 namespace intaglio::cli {
@@ -110,12 +110,10 @@ std::string markdown(const std::vector<FitRow>& rows) {
 }  // namespace
 
 Status table_of_settings(const dsl::Catalogue& catalogue, const TableOptions& options) {
-    const bool terminal = isatty(STDERR_FILENO);
-    const std::vector<FitRow> rows =
-        fit_settings(catalogue, profiles, options.only, options.threads, [&](int done, int all) {
-            if (terminal)
-                fmt::print(stderr, "\r{} of {} variants{}", done, all, done == all ? "\n" : "");
-        });
+    const std::vector<FitRow> rows = [&] {
+        ProgressLine progress("tried", "variants");
+        return fit_settings(catalogue, profiles, options.only, options.threads, std::ref(progress));
+    }();
     if (rows.empty())
         return input_error("option-value",
                            fmt::format("--only: no technique's title contains '{}'; they read "

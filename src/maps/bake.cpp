@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "src/maps/bake_grid.h"
+
 namespace intaglio::maps {
 namespace {
 
@@ -55,7 +57,8 @@ Slopes slopes_at(const Image& heights, int x, int y, NormalKernel kernel, Wrap w
 
 }  // namespace
 
-Result<Image> bake_normal(const Image& heights, double scale, NormalKernel kernel, Wrap wrap) {
+Result<Image> bake_normal(const Image& heights, double scale, NormalKernel kernel, Wrap wrap,
+                          const Work& work) {
     if (Status sound = check_image(heights); !sound) return sound.error();
     if (!(std::abs(scale) <= largest_scale)) {
         return input_error(
@@ -64,7 +67,7 @@ Result<Image> bake_normal(const Image& heights, double scale, NormalKernel kerne
                         largest_scale, scale));
     }
     Image normals = blank_image(heights.width, heights.height, 3, heights.bits);
-    for (int y = 0; y < heights.height; ++y) {
+    const auto fill_row = [&](int y) {
         for (int x = 0; x < heights.width; ++x) {
             const Slopes slopes = slopes_at(heights, x, y, kernel, wrap);
             std::array<double, 3> normal = {-slopes.u * scale, -slopes.v * scale, 1.0};
@@ -74,7 +77,8 @@ Result<Image> bake_normal(const Image& heights, double scale, NormalKernel kerne
                 normals.at(x, y, c) = static_cast<float>(component * 0.5 + 0.5);
             }
         }
-    }
+    };
+    for_each_row(heights.height, fill_row, work);
     return normals;
 }
 

@@ -3,6 +3,7 @@
 
 #include "generator/base/result.h"
 #include "src/maps/image.h"
+#include "src/maps/work.h"
 
 namespace intaglio::maps {
 
@@ -24,6 +25,7 @@ enum class Wrap { Repeat, Clamp };
 // surface rises downwards in the picture, y is below one half. (Tools whose v grows upwards store 1
 // - y.)  A negative scale turns the relief inside out. Codes: "image-malformed"; "scale-range" (the
 // magnitude of the scale is at most 1e6).
-Result<Image> bake_normal(const Image& heights, double scale, NormalKernel kernel, Wrap wrap);
+Result<Image> bake_normal(const Image& heights, double scale, NormalKernel kernel, Wrap wrap,
+                          const Work& work = {});
 
 }  // namespace intaglio::maps

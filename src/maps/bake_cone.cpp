@@ -261,7 +261,7 @@ class ConeBake {
 
 }  // namespace
 
-Result<Image> bake_cone(const Image& heights, ConeKind kind) {
+Result<Image> bake_cone(const Image& heights, ConeKind kind, const Work& work) {
     if (Status sound = check_image(heights); !sound) return sound.error();
     const Grid grid(heights);
     const ConeBake bake(grid, kind);
@@ -271,9 +271,10 @@ Result<Image> bake_cone(const Image& heights, ConeKind kind) {
         return slopes[static_cast<std::size_t>(grid.row(j)) * static_cast<std::size_t>(width) +
                       static_cast<std::size_t>(grid.column(i))];
     };
-    for_each_row(height, [&](int j) {
+    const auto fill_row = [&](int j) {
         for (int i = 0; i < width; ++i) slope(i, j) = bake.slope_of(i, j);
-    });
+    };
+    for_each_row(height, fill_row, work);
     Image cones = blank_image(width, height, 2, heights.bits);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {

@@ -8,6 +8,7 @@
 
 #include "generator/base/result.h"
 #include "src/maps/image.h"
+#include "src/maps/work.h"
 
 namespace intaglio::maps {
 
@@ -42,6 +43,6 @@ inline constexpr double widest_cone = 1.0;
 // O(n^2 / 64 + pairs that are close to touching) for n texels.
 //
 // Codes: "image-malformed".
-Result<Image> bake_cone(const Image& heights, ConeKind kind);
+Result<Image> bake_cone(const Image& heights, ConeKind kind, const Work& work = {});
 
 }  // namespace intaglio::maps

@@ -75,7 +75,8 @@ void fill_slice(Volume& volume, int slice, const std::vector<double>& highest, i
 
 }  // namespace
 
-Result<Volume> bake_distance(const Image& heights, int columns, int rows, int slices) {
+Result<Volume> bake_distance(const Image& heights, int columns, int rows, int slices,
+                             const Work& work) {
     if (Status sound = check_image(heights); !sound) return sound.error();
     if (slices < 2 || slices > 256)
         return input_error("slices-range",
@@ -87,7 +88,8 @@ Result<Volume> bake_distance(const Image& heights, int columns, int rows, int sl
     const Grid grid(heights);
     const std::vector<double> highest = column_heights(grid, columns, rows);
     Volume volume{slices, blank_image(columns, rows * slices, 1, heights.bits)};
-    for_each_row(slices, [&](int slice) { fill_slice(volume, slice, highest, rows); });
+    for_each_row(
+        slices, [&](int slice) { fill_slice(volume, slice, highest, rows); }, work);
     return volume;
 }
 

@@ -4,6 +4,7 @@
 
 #include "generator/base/result.h"
 #include "src/maps/image.h"
+#include "src/maps/work.h"
 
 namespace intaglio::maps {
 
@@ -43,6 +44,6 @@ inline constexpr double distance_depth = 1.0 / 8;
 // Codes: "image-malformed"; "image-size" where rows times slices is too large; "slices-range"
 // unless 2 to 256 slices.
 Result<Volume> bake_distance(const Image& heights, int columns = 256, int rows = 256,
-                             int slices = 32);
+                             int slices = 32, const Work& work = {});
 
 }  // namespace intaglio::maps

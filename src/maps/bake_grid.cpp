@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <mutex>
 #include <thread>
 
 namespace intaglio::maps {
@@ -30,15 +31,24 @@ double Grid::height_at(double x, double y) const {
     return upper + (lower - upper) * fy;
 }
 
-void for_each_row(int count, const std::function<void(int)>& row) {
-    const int most = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+void for_each_row(int count, const std::function<void(int)>& row, const Work& work) {
+    const int most = work.threads > 0
+                         ? work.threads
+                         : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     std::atomic<int> next{0};
-    const auto work = [&] {
-        for (int i = next++; i < count; i = next++) row(i);
+    std::mutex reporting;
+    int done = 0;
+    const auto take_rows = [&] {
+        for (int i = next++; i < count; i = next++) {
+            row(i);
+            if (!work.progress) continue;
+            const std::lock_guard lock(reporting);
+            work.progress(++done, count);
+        }
     };
     std::vector<std::thread> others;
-    for (int i = 1; i < std::min(most, count); ++i) others.emplace_back(work);
-    work();
+    for (int i = 1; i < std::min(most, count); ++i) others.emplace_back(take_rows);
+    take_rows();
     for (std::thread& other : others) other.join();
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "src/maps/image.h"
+#include "src/maps/work.h"
 
 namespace intaglio::maps {
 
@@ -115,9 +116,9 @@ inline Children children_of(int at, int fine, int coarse) {
             static_cast<int>((wide(at + 1) + coarse - 1) / coarse)};
 }
 
-// Runs `row` for 0 to count - 1, shared out to as many threads as the machine has; each row is done
-// by one of them, so results do not depend on their number.
-void for_each_row(int count, const std::function<void(int)>& row);
+// Runs `row` for 0 to count - 1, shared out to threads; each row is done by one of them, so results
+// do not depend on their number.
+void for_each_row(int count, const std::function<void(int)>& row, const Work& work = {});
 
 // The greatest multiple of 1 / (2^bits - 1) that is not above `value`, clamped to [0, 1]: what a
 // texel of that many bits holds without claiming more.

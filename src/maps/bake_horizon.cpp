@@ -55,7 +55,7 @@ double exact_cosine(int direction, int azimuths) {
 
 }  // namespace
 
-Result<std::vector<Image>> bake_horizon(const Image& heights, int azimuths) {
+Result<std::vector<Image>> bake_horizon(const Image& heights, int azimuths, const Work& work) {
     if (Status sound = check_image(heights); !sound) return sound.error();
     if (azimuths < 4 || azimuths > 64 || azimuths % 4 != 0)
         return input_error(
@@ -66,7 +66,7 @@ Result<std::vector<Image>> bake_horizon(const Image& heights, int azimuths) {
     std::vector<Image> images(static_cast<std::size_t>(count),
                               blank_image(heights.width, heights.height, 4, heights.bits));
     const double last = azimuths == 4 ? 1 : azimuths == 8 ? std::numbers::sqrt2 : 2;
-    for_each_row(heights.height, [&](int y) {
+    const auto fill_row = [&](int y) {
         for (int x = 0; x < heights.width; ++x)
             for (int k = 0; k < azimuths; ++k) {
                 const double cosine = exact_cosine(k, azimuths),
@@ -75,7 +75,8 @@ Result<std::vector<Image>> bake_horizon(const Image& heights, int azimuths) {
                 images[static_cast<std::size_t>(k % count)].at(x, y, k / count) =
                     rounded(slope / (slope + horizon_middle), heights.bits);
             }
-    });
+    };
+    for_each_row(heights.height, fill_row, work);
     return images;
 }
 

@@ -7,6 +7,7 @@
 
 #include "generator/base/result.h"
 #include "src/maps/image.h"
+#include "src/maps/work.h"
 
 namespace intaglio::maps {
 
@@ -29,6 +30,7 @@ inline constexpr double horizon_middle = 16.0;
 // Texels times azimuths times the cells until nothing higher can follow.
 //
 // Codes: "image-malformed"; "azimuths-range" unless a multiple of 4 from 4 to 64.
-Result<std::vector<Image>> bake_horizon(const Image& heights, int azimuths = 8);
+Result<std::vector<Image>> bake_horizon(const Image& heights, int azimuths = 8,
+                                        const Work& work = {});
 
 }  // namespace intaglio::maps

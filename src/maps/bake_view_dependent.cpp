@@ -52,7 +52,8 @@ std::array<double, 2> reach_of(double x, double y) {
 
 }  // namespace
 
-Result<Volume> bake_view_dependent(const Image& heights, int columns, int rows, int views) {
+Result<Volume> bake_view_dependent(const Image& heights, int columns, int rows, int views,
+                                   const Work& work) {
     if (Status sound = check_image(heights); !sound) return sound.error();
     if (views < 2 || views > 32)
         return input_error(
@@ -65,7 +66,7 @@ Result<Volume> bake_view_dependent(const Image& heights, int columns, int rows, 
         return fits.error();
     const Grid grid(heights);
     Volume volume{slices, blank_image(columns, rows * slices, 4, heights.bits)};
-    for_each_row(rows, [&](int y) {
+    const auto fill_row = [&](int y) {
         const double v = (y + 0.5) * heights.height / rows - 0.5;
         for (int x = 0; x < columns; ++x) {
             const double u = (x + 0.5) * heights.width / columns - 0.5;
@@ -81,7 +82,8 @@ Result<Volume> bake_view_dependent(const Image& heights, int columns, int rows, 
                     }
                 }
         }
-    });
+    };
+    for_each_row(rows, fill_row, work);
     return volume;
 }
 

@@ -32,6 +32,6 @@ inline constexpr double widest_view = 0.9;
 // ((x + 0.5) / columns, (y + 0.5) / rows).  Texels times views squared times the cells until the
 // hit.  Codes: "image-malformed"; "views-range" unless 2 to 32; "image-size".
 Result<Volume> bake_view_dependent(const Image& heights, int columns = 128, int rows = 128,
-                                   int views = 9);
+                                   int views = 9, const Work& work = {});
 
 }  // namespace intaglio::maps

@@ -142,4 +142,20 @@ Status write_file(const fs::path& path, std::span<const unsigned char> bytes) {
     return cannot_write(path, failure);
 }
 
+std::string shell_quoted(const std::string& argument) {
+    const auto plain = [](unsigned char c) {
+        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+               std::string_view("_-+=.,:/@%").find(static_cast<char>(c)) != std::string_view::npos;
+    };
+    if (!argument.empty() && std::all_of(argument.begin(), argument.end(), plain)) return argument;
+    std::string quoted = "'";
+    for (char c : argument) {
+        if (c == '\'')
+            quoted += "'\\''";
+        else
+            quoted += c;
+    }
+    return quoted + "'";
+}
+
 }  // namespace intaglio::maps

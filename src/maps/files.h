@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "generator/base/result.h"
@@ -20,5 +21,8 @@ Result<std::vector<unsigned char>> read_file(const std::filesystem::path& path, 
 // What is neither a file nor a folder (a pipe, a device) is written directly.  Codes:
 // "file-is-directory", "file-unwritable".
 Status write_file(const std::filesystem::path& path, std::span<const unsigned char> bytes);
+
+// An argument as a POSIX shell takes it: quoted where it must be.
+std::string shell_quoted(const std::string& argument);
 
 }  // namespace intaglio::maps

@@ -131,6 +131,12 @@ Status check_image(const Image& image) {
     return Done{};
 }
 
+unsigned stored_step(float value, int bits) {
+    if (!(value > 0.0f)) return 0;  // also NaN
+    return static_cast<unsigned>(
+        std::lround(std::min(value, 1.0f) * (bits == 8 ? 255.0f : 65535.0f)));
+}
+
 Result<Image> heights_of(const Image& image, HeightSource source) {
     if (Status sound = check_image(image); !sound) return sound.error();
     const bool has_alpha = image.channels == 2 || image.channels == 4;

@@ -43,6 +43,9 @@ struct Image {
 // An image of zeros.  The size must be one that check_size accepts.
 Image blank_image(int width, int height, int channels, int bits);
 
+// The integer that a file of `bits` stores for a value: the nearest step, clamped; 0 for NaN.
+unsigned stored_step(float value, int bits);
+
 // Refuses, with the limit in the sentence, sizes below 1 x 1 and above the two limits (code
 // "image-size").
 Status check_size(long long width, long long height);

@@ -178,9 +178,34 @@ Result<Image> decode(spng_ctx* context) {
     return image;
 }
 
-unsigned quantised(float value, float largest) {
-    if (!(value > 0.0f)) return 0;  // also NaN
-    return static_cast<unsigned>(std::lround(std::min(value, 1.0f) * largest));
+Result<std::vector<PngText>> text_of(spng_ctx* context) {
+    std::uint32_t count = 0;
+    int error = spng_get_text(context, nullptr, &count);
+    std::vector<spng_text> chunks(error == 0 ? count : 0);
+    if (error == 0) error = spng_get_text(context, chunks.data(), &count);
+    if (error == SPNG_ECHUNKAVAIL) return std::vector<PngText>{};
+    if (error != 0) return decoding_error(error);
+    std::vector<PngText> text;
+    for (const spng_text& chunk : chunks)
+        text.push_back({chunk.keyword, std::string(chunk.text, chunk.length)});
+    return text;
+}
+
+// International text, because names of files are not Latin.  libspng keeps the pointers until it
+// has encoded.
+int set_text(spng_ctx* context, std::span<const PngText> text) {
+    std::vector<spng_text> chunks;
+    static char nothing[] = "";
+    for (const PngText& entry : text) {
+        spng_text& chunk = chunks.emplace_back();
+        entry.keyword.copy(chunk.keyword, sizeof chunk.keyword - 1);
+        chunk.type = SPNG_ITXT;
+        chunk.length = entry.text.size();
+        chunk.text = const_cast<char*>(entry.text.c_str());  // only read
+        chunk.language_tag = chunk.translated_keyword = nothing;
+    }
+    if (chunks.empty()) return 0;
+    return spng_set_text(context, chunks.data(), static_cast<std::uint32_t>(chunks.size()));
 }
 
 std::vector<unsigned char> integers_of(const Image& image) {
@@ -188,10 +213,10 @@ std::vector<unsigned char> integers_of(const Image& image) {
     raw.reserve(image.texels.size() * static_cast<std::size_t>(image.bits / 8));
     for (const float value : image.texels) {
         if (image.bits == 8) {
-            raw.push_back(static_cast<unsigned char>(quantised(value, 255.0f)));
+            raw.push_back(static_cast<unsigned char>(stored_step(value, 8)));
             continue;
         }
-        const auto wide = static_cast<std::uint16_t>(quantised(value, 65535.0f));
+        const auto wide = static_cast<std::uint16_t>(stored_step(value, 16));
         std::array<unsigned char, sizeof wide> halves;
         std::memcpy(halves.data(), &wide, sizeof wide);  // libspng: 16 bits in host order
         raw.insert(raw.end(), halves.begin(), halves.end());
@@ -206,7 +231,7 @@ Diagnostic in_file(Diagnostic error, const std::filesystem::path& path) {
 
 }  // namespace
 
-Result<Image> decode_png(std::span<const unsigned char> bytes) {
+Result<Image> decode_png(std::span<const unsigned char> bytes, std::vector<PngText>* text) {
     if (Status signature = check_signature(bytes); !signature) return signature.error();
     const Context context(spng_ctx_new(0));
     if (!context) return internal_error("png-library", "the PNG library could not be started");
@@ -223,13 +248,18 @@ Result<Image> decode_png(std::span<const unsigned char> bytes) {
         if (image.ok() && content.rfind(png_end) == std::string_view::npos) {
             return decoding_error(SPNG_EOF);
         }
+        if (image.ok() && text != nullptr) {
+            Result<std::vector<PngText>> found = text_of(context.get());
+            if (!found) return found.error();
+            *text = std::move(*found);
+        }
         return image;
     } catch (const std::bad_alloc&) {
         return decoding_error(SPNG_EMEM);
     }
 }
 
-Result<std::vector<unsigned char>> encode_png(const Image& image) {
+Result<std::vector<unsigned char>> encode_png(const Image& image, std::span<const PngText> text) {
     if (Status sound = check_image(image); !sound) return sound.error();
     constexpr std::array<std::uint8_t, 5> colour_types = {
         0, SPNG_COLOR_TYPE_GRAYSCALE, SPNG_COLOR_TYPE_GRAYSCALE_ALPHA, SPNG_COLOR_TYPE_TRUECOLOR,
@@ -245,6 +275,7 @@ Result<std::vector<unsigned char>> encode_png(const Image& image) {
     const std::vector<unsigned char> raw = integers_of(image);
     spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1);
     int error = spng_set_ihdr(context.get(), &header);
+    if (error == 0) error = set_text(context.get(), text);
     if (error == 0) {
         error = spng_encode_image(context.get(), raw.data(), raw.size(), SPNG_FMT_PNG,
                                   SPNG_ENCODE_FINALIZE);
@@ -261,16 +292,17 @@ Result<std::vector<unsigned char>> encode_png(const Image& image) {
     return std::vector<unsigned char>(first, first + size);
 }
 
-Result<Image> read_png(const std::filesystem::path& path) {
+Result<Image> read_png(const std::filesystem::path& path, std::vector<PngText>* text) {
     const auto bytes = read_file(path, largest_file);
     if (!bytes) return bytes.error();
-    Result<Image> image = decode_png(*bytes);
+    Result<Image> image = decode_png(*bytes, text);
     if (!image) return in_file(image.error(), path);
     return image;
 }
 
-Status write_png(const std::filesystem::path& path, const Image& image) {
-    const auto bytes = encode_png(image);
+Status write_png(const std::filesystem::path& path, const Image& image,
+                 std::span<const PngText> text) {
+    const auto bytes = encode_png(image, text);
     if (!bytes) return in_file(bytes.error(), path);
     return write_file(path, *bytes);
 }

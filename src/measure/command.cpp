@@ -1,7 +1,6 @@
 // Words for cases.
 #include "src/measure/command.h"
 
-#include <algorithm>
 #include <initializer_list>
 
 #include <fmt/format.h>
@@ -32,22 +31,6 @@ std::string text_of(const VariantRequest& request) {
         words.push_back(
             fmt::format("--split {} --pass {}", dsl::to_string(request.split), request.pass));
     return fmt::format("{}", fmt::join(words, " "));
-}
-
-std::string shell_quoted(const std::string& argument) {
-    const auto plain = [](unsigned char c) {
-        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-               std::string_view("_-+=.,:/@%").find(static_cast<char>(c)) != std::string_view::npos;
-    };
-    if (!argument.empty() && std::all_of(argument.begin(), argument.end(), plain)) return argument;
-    std::string quoted = "'";
-    for (char c : argument) {
-        if (c == '\'')
-            quoted += "'\\''";
-        else
-            quoted += c;
-    }
-    return quoted + "'";
 }
 
 std::string run_command(const Case& what, const std::vector<std::string>& map_arguments,

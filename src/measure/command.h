@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "src/maps/files.h"
 #include "src/measure/case.h"
 
 namespace intaglio::measure {
@@ -17,8 +18,7 @@ std::string_view word_of(ir::LoopForm form);
 // same.
 std::string text_of(const VariantRequest& request);
 
-// Quoted for a POSIX shell where it must be.
-std::string shell_quoted(const std::string& argument);
+using maps::shell_quoted;
 
 // `intaglio run` with the variant, the map (its arguments), the view, light, scale, size and the
 // device (part of its name; empty: lavapipe), then `more`.

@@ -34,7 +34,9 @@ Status InterpretedQuad::add_textures(const Variant& variant, const Textures& tex
             // Baked maps keep their levels, whatever the language: prepare_quad does the same.
             const bool one_level = source != nullptr && reading.one_level.contains(name);
             if (source == nullptr) {
-                const Result<const vulkan::Texture*> baked = textures.baked->texture(name);
+                const auto settings = reading.baked.find(name);
+                const Result<const vulkan::Texture*> baked = textures.baked->texture(
+                    name, settings == reading.baked.end() ? "" : settings->second);
                 if (!baked) return baked.error();
                 source = *baked;
             }

@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 
 #include "src/maps/bake.h"
+#include "src/maps/files.h"
 #include "src/maps/makers.h"
 #include "src/maps/png.h"
+#include "src/measure/baked_maps.h"
 
 namespace intaglio::measure {
 namespace {
@@ -35,6 +37,27 @@ vulkan::Texture texture_of(const maps::Image& image, vulkan::Texture::Format for
         texture.levels.push_back(rgba_of(level));
     texture.format = format;
     return texture;
+}
+
+// What a baked normal map has to be; its heights are looked at by whoever needs them.
+maps::WantedBake wanted_normals(const MapSet& set, double scale) {
+    return {"normal",
+            {{"scale", fmt::format("{}", scale)}},
+            maps::fingerprint(set.heights),
+            set.source};
+}
+
+// A normal map that a person drew says nothing of itself, and one that says it must be right.  What
+// was changed since is the person's business.
+Result<maps::Image> read_normals(const std::filesystem::path& path, const MapSet& set,
+                                 double scale) {
+    Result<maps::BakedFile> file = maps::read_baked(path);
+    if (!file) return file.error();
+    if (!file->from) return std::move(file->map);
+    file->changed = false;
+    if (Status pairing = maps::check_pairing(*file, wanted_normals(set, scale)); !pairing)
+        return pairing.error();
+    return std::move(file->map);
 }
 
 }  // namespace
@@ -84,12 +107,13 @@ Result<MapSet> load_map_set(const MapFiles& files, double scale) {
     Result<maps::Image> heights = maps::heights_of(*source, maps::HeightSource::Automatic);
     if (!heights) return heights.error();
     set.heights = std::move(*heights);
+    set.source = maps::shell_quoted(files.height.string());
 
     const bool packed = source->channels == 4 && !files.normal;
     Result<maps::Image> normals =
         packed ? Result<maps::Image>(*source) : normals_with_heights(set.heights, scale);
     if (files.normal) {
-        const Result<maps::Image> given = maps::read_png(*files.normal);
+        const Result<maps::Image> given = read_normals(*files.normal, set, scale);
         if (!given) return given.error();
         if (given->width != set.heights.width || given->height != set.heights.height)
             return input_error(
@@ -111,6 +135,7 @@ Result<MapSet> load_map_set(const MapFiles& files, double scale) {
         if (!colour) return colour.error();
         set.colour = std::move(*colour);
     }
+    if (Status status = add_baked_files(set, files.baked, scale); !status) return status.error();
     return set;
 }
 
@@ -121,6 +146,7 @@ Result<MapSet> make_map_set(const std::string& maker, int width, int height, dou
     Result<maps::Image> heights = maps::make_height_map(maker, width, height, seed);
     if (!heights) return heights.error();
     set.heights = std::move(*heights);
+    set.source = maker_arguments(maker, width, height, seed);
     Result<maps::Image> normals = normals_with_heights(set.heights, scale);
     if (!normals) return normals.error();
     set.normal_height = std::move(*normals);
@@ -134,6 +160,33 @@ Result<MapSet> map_set_from_heights(std::string name, const maps::Image& heights
     Result<maps::Image> normals = normals_with_heights(heights, scale);
     if (!normals) return normals.error();
     return MapSet{std::move(name), heights, std::move(*normals), grey_of(heights)};
+}
+
+std::string maker_arguments(const std::string& maker, int width, int height, std::uint32_t seed) {
+    const std::string rest = seed == 1 ? "" : fmt::format(" --seed {}", seed);
+    return fmt::format("--maker {} --map-size {}x{}{}", maker, width, height, rest);
+}
+
+Status add_baked_files(MapSet& set, const std::map<std::string, std::filesystem::path>& files,
+                       double scale) {
+    const std::string fingerprint = files.empty() ? "" : maps::fingerprint(set.heights);
+    for (const auto& [kind, path] : files) {
+        Result<maps::WantedBake> wanted = kind == "normal"
+                                              ? wanted_normals(set, scale)
+                                              : wanted_bake(kind, fingerprint, set.source);
+        if (!wanted) return wanted.error();
+        Result<maps::BakedFile> file = maps::read_baked(path);
+        if (!file) return file.error();
+        if (Status pairing = maps::check_pairing(*file, *wanted); !pairing) return pairing;
+        if (kind != "normal") {
+            set.baked[kind] = std::move(*file);
+            continue;
+        }
+        Result<maps::Image> normals = maps::with_height_in_alpha(file->map, set.heights);
+        if (!normals) return normals.error();
+        set.normal_height = std::move(*normals);
+    }
+    return Done{};
 }
 
 vulkan::Texture height_texture(const MapSet& set, Filtering filtering) {

@@ -58,6 +58,7 @@ Result<PreparedMap> prepare_map(const vulkan::Device& device, const Plan& plan,
         if (!program) return program.error();
         prepared.shaded.push_back(std::move(*program));
     }
+    if (Status status = textures.baked->check_all_read(); !status) return status.error();
     return prepared;
 }
 

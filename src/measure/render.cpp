@@ -36,13 +36,15 @@ vulkan::Draw base_draw(const check::Program& shaders, const Textures& textures, 
 }
 
 // The baked maps that the stages read and nobody gave.
-Status add_baked(vulkan::Draw& draw, const Textures& textures) {
+Status add_baked(vulkan::Draw& draw, const check::Program& shaders, const Textures& textures) {
     for (const vulkan::Stage* stage : {&draw.vertex, &draw.fragment}) {
         const Result<check::Reflection> reflection = check::reflect(stage->spirv);
         if (!reflection) return reflection.error();
         for (const check::Reflection::Image& image : reflection->images) {
             if (draw.textures.contains(image.name)) continue;
-            const Result<const vulkan::Texture*> map = textures.baked->texture(image.name);
+            const auto settings = shaders.baked.find(image.name);
+            const Result<const vulkan::Texture*> map = textures.baked->texture(
+                image.name, settings == shaders.baked.end() ? "" : settings->second);
             if (!map) return map.error();
             if (*map != nullptr) draw.textures[image.name] = *map;
         }
@@ -87,7 +89,7 @@ Result<vulkan::Program> prepare_flat(const vulkan::Device& device, const check::
                                      const PassLink& link) {
     Copies copies;
     vulkan::Draw draw = base_draw(shaders, textures, width, height, link, copies);
-    if (Status status = add_baked(draw, textures); !status) return status.error();
+    if (Status status = add_baked(draw, shaders, textures); !status) return status.error();
     draw.mesh = &mesh;
     draw.uniforms = uniforms_of({}, {}, scale, textures.height.width, textures.height.height, look);
     draw.uniforms.insert(link.uniforms.begin(), link.uniforms.end());
@@ -106,7 +108,7 @@ Result<vulkan::Program> prepare_mesh(const vulkan::Device& device, const check::
                                      const MeshView& view, const Look& look, const PassLink& link) {
     Copies copies;
     vulkan::Draw draw = base_draw(shaders, textures, width, height, link, copies);
-    if (Status status = add_baked(draw, textures); !status) return status.error();
+    if (Status status = add_baked(draw, shaders, textures); !status) return status.error();
     draw.mesh = &view.mesh;
     draw.uniforms = uniforms_of({}, {}, scale, textures.height.width, textures.height.height, look);
     draw.uniforms.insert(link.uniforms.begin(), link.uniforms.end());

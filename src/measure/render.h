@@ -24,7 +24,7 @@ struct Textures {
         : height(height_texture(set, filtering)),
           normal(normal_texture(set, filtering)),
           colour(colour_texture(set)),
-          baked(std::make_shared<BakedMaps>(set.heights, filtering)) {}
+          baked(std::make_shared<BakedMaps>(set, filtering)) {}
 };
 
 // A texture as the device would hold it, for the evaluators: texels rounded as their format does,

@@ -2,7 +2,10 @@
 // length of the light's vector, which every surface normalises and none measures.
 #include "src/measure/shells.h"
 
+#include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -51,6 +54,10 @@ class ShellVertex : public VertexWork {
 class Shells : public Search {
   public:
     Knob<int> layers{this, "layers", 16, at_least{1}, at_most{most_layers}, "how many shells"};
+    Knob<int> fins{this, "fins", 0, at_least{0}, at_most{1}, "1: the mesh has fins too"};
+    Knob<float> fin_view{this,       "fin_view",
+                         0.35f,      at_least{0},
+                         at_most{1}, "sine of the angle below which the surface shows its fins"};
     Knob<int> counting{this,        "counting", 0,
                        at_least{0}, at_most{1}, "1: one layer alone, with every fragment of it"};
 
@@ -58,15 +65,21 @@ class Shells : public Search {
         Step step("shells", "Keep the fragment where the relief reaches its layer.");
         const float count = static_cast<float>(layers.value());
         // The layer's height is a multiple of 1 / count: what interpolation lost is rounded away.
-        const float1 index =
-            let("layer_index", floor((length(input<3>("to_light")) - 1.0f) * count + 0.5f));
+        const float1 coded = length(input<3>("to_light")) - 1.0f;
+        const float1 index = let("layer_index", floor(coded * count + 0.5f));
         const float1 layer = let("layer_height", index * (1.0f / count));
         if (counting.value() == 1) {
             const float1 shown = uniform<1>("shown_layer", "the layer that is drawn, from 0");
             return {kept(ray.uv, abs(index - shown) < 0.5f), layer, bool1(true)};
         }
         const float1 height = let("map_height", relief.height(ray.uv));
-        return {kept(ray.uv, height >= layer), height, bool1(true)};
+        if (fins.value() == 0) return {kept(ray.uv, height >= layer), height, bool1(true)};
+        // A fin's height needs no rounding: it is not compared with another of its layer.
+        const bool1 is_fin = let("is_fin", coded > 1.5f);
+        const float3 eye = input<3>("to_eye");
+        const bool1 edge_on = abs(eye.z()) < length(eye) * fin_view.value();
+        return {kept(ray.uv, height >= select(is_fin, coded - 2.0f, layer) && (edge_on || !is_fin)),
+                height, bool1(true)};
     }
 
   private:
@@ -74,6 +87,13 @@ class Shells : public Search {
         return let("kept", select(test, uv, float2(far_away, far_away)));
     }
 };
+
+// Moves a vertex down its normal.
+void lower(vulkan::Vertex& vertex, double by) {
+    for (std::size_t i = 0; i < 3; ++i)
+        vertex.position[i] =
+            static_cast<float>(vertex.position[i] - static_cast<double>(vertex.normal[i]) * by);
+}
 
 }  // namespace
 
@@ -95,6 +115,11 @@ VariantRequest shells_request(VariantRequest request, int layers, bool counting)
     return request;
 }
 
+VariantRequest with_fins(VariantRequest request) {
+    request.knobs.emplace_back("fins", "1");
+    return request;
+}
+
 Result<vulkan::Mesh> shells_of(const vulkan::Mesh& mesh, int layers, double depth) {
     if (layers < 1 || layers > most_layers)
         return input_error("layers", fmt::format("1 to {} layers; {} is not", most_layers, layers));
@@ -106,14 +131,33 @@ Result<vulkan::Mesh> shells_of(const vulkan::Mesh& mesh, int layers, double dept
         const double height = static_cast<double>(layer) / layers;
         const std::uint32_t first = static_cast<std::uint32_t>(shells.vertices.size());
         for (vulkan::Vertex vertex : mesh.vertices) {
-            for (std::size_t i = 0; i < 3; ++i)
-                vertex.position[i] =
-                    static_cast<float>(vertex.position[i] - static_cast<double>(vertex.normal[i]) *
-                                                                (1 - height) * depth);
+            lower(vertex, (1 - height) * depth);
             vertex.tangent[3] *= static_cast<float>(1 + height);
             shells.vertices.push_back(vertex);
         }
         for (const std::uint32_t index : mesh.indices) shells.indices.push_back(first + index);
+    }
+    return shells;
+}
+
+Result<vulkan::Mesh> add_fins(vulkan::Mesh shells, const vulkan::Mesh& mesh, double depth) {
+    std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+        for (std::size_t k = 0; k < 3; ++k)
+            edges.insert(std::minmax(mesh.indices[i + k], mesh.indices[i + (k + 1) % 3]));
+    if (Status status = check_mesh_size(shells.vertices.size() + edges.size() * 4); !status)
+        return status.error();
+    for (const auto& [a, b] : edges) {
+        const std::uint32_t first = static_cast<std::uint32_t>(shells.vertices.size());
+        for (const std::uint32_t end : {a, b})
+            for (const int height : {0, 1}) {
+                vulkan::Vertex vertex = mesh.vertices[end];
+                lower(vertex, (1 - height) * depth);
+                vertex.tangent[3] *= static_cast<float>(3 + height);
+                shells.vertices.push_back(vertex);
+            }
+        for (const std::uint32_t corner : {0, 1, 2, 2, 1, 3})
+            shells.indices.push_back(first + corner);
     }
     return shells;
 }

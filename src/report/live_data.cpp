@@ -100,7 +100,7 @@ Result<Json> texture_json(const vulkan::Texture& texture, std::size_t levels) {
 
 Result<Json> map_json(const LiveMap& map, const LiveOptions& options, const Samplers& samplers) {
     const measure::MapSet set = live_map(map.set, options.side);
-    measure::BakedMaps baked(set.heights, measure::Filtering::Native);
+    measure::BakedMaps baked(set, measure::Filtering::Native);
     Json textures = Json::object();
     for (const auto& [name, sampler] : samplers) {
         Result<Json> texture = Json{};
@@ -111,7 +111,7 @@ Result<Json> map_json(const LiveMap& map, const LiveOptions& options, const Samp
         } else if (name == "colour_map") {
             texture = texture_json(measure::colour_texture(set), 1);
         } else {
-            const Result<const vulkan::Texture*> found = baked.texture(name);
+            const Result<const vulkan::Texture*> found = baked.texture(name, sampler.baked);
             if (!found) return found.error();
             if (*found == nullptr)
                 return input_error("live-maps",

@@ -10,6 +10,7 @@
 #include "generator/base/nearest.h"
 #include "src/maps/files.h"
 #include "src/maps/makers.h"
+#include "src/measure/baked_maps.h"
 
 namespace intaglio::scene {
 namespace {
@@ -41,14 +42,32 @@ void check_maker(Reader& reader, const Value& table, const std::string& maker) {
         reader.refuse(value.position, "unknown-map", unknown_name_sentence("maker", maker, names));
 }
 
+std::map<std::string, std::filesystem::path> read_baked(Reader& reader, const Value& map,
+                                                        const std::filesystem::path& folder) {
+    const Value& table = reader.table(map, "baked");
+    std::map<std::string, std::filesystem::path> files;
+    for (const Member& member : table.members) {
+        if (const auto kind = measure::wanted_bake(member.key, "", "");
+            !kind && member.key != "normal")
+            reader.refuse(member.position, kind.error().code, kind.error().message);
+        if (const auto path = read_path(reader, table, member.key, folder))
+            files[member.key] = *path;
+    }
+    if (const Member* normal = map.find("normal_map"); normal && files.contains("normal"))
+        reader.refuse(normal->position, "scene-conflict",
+                      "a map has either a normal_map or a baked normal, not both");
+    return files;
+}
+
 MapEntry read_map(Reader& reader, const Value& table, const std::filesystem::path& folder) {
     const bool known = reader.check_keys(table, "[[map]]",
                                          {"name", "class", "maker", "width", "height", "seed",
-                                          "height_map", "normal_map", "colour_map"});
+                                          "height_map", "normal_map", "colour_map", "baked"});
     MapEntry entry;
     entry.position = table.position;
     entry.name = reader.text(table, "name", "");
     entry.map_class = reader.text(table, "class", "");
+    entry.baked = read_baked(reader, table, folder);
     const bool made = table.find("maker") != nullptr;
     for (const char* key : {"width", "height", "seed"})
         if (const Member* member = table.find(key); member && !made)
@@ -74,7 +93,8 @@ MapEntry read_map(Reader& reader, const Value& table, const std::filesystem::pat
                       "a [[map]] needs a maker (procedural) or a height_map (a PNG file)");
     entry.files =
         measure::MapFiles{height.value_or(""), read_path(reader, table, "normal_map", folder),
-                          read_path(reader, table, "colour_map", folder)};
+                          read_path(reader, table, "colour_map", folder),
+                          {}};
     return entry;
 }
 
@@ -122,6 +142,14 @@ std::vector<VariantRequest> combinations(const VariantRequest& variant,
         rows = std::move(longer);
     }
     return rows;
+}
+
+// Of baked maps only normals, which a file rounds; the others are the same when they are baked
+// again.
+void add_normal(const std::map<std::string, std::filesystem::path>& baked,
+                std::vector<std::string>& arguments) {
+    if (const auto normal = baked.find("normal"); normal != baked.end())
+        arguments.insert(arguments.end(), {"--baked", "normal=" + normal->second.string()});
 }
 
 }  // namespace
@@ -189,15 +217,21 @@ std::vector<std::string> arguments_of(const measure::MapFiles& files) {
     std::vector<std::string> arguments{"--height", files.height.string()};
     if (files.normal) arguments.insert(arguments.end(), {"--normal", files.normal->string()});
     if (files.colour) arguments.insert(arguments.end(), {"--colour", files.colour->string()});
+    add_normal(files.baked, arguments);
     return arguments;
 }
 
 std::vector<std::string> arguments_of(const MapEntry& entry) {
-    if (entry.files) return arguments_of(*entry.files);
+    if (entry.files) {
+        std::vector<std::string> arguments = arguments_of(*entry.files);
+        add_normal(entry.baked, arguments);
+        return arguments;
+    }
     std::vector<std::string> arguments{"--maker", entry.maker, "--map-size",
                                        fmt::format("{}x{}", entry.width, entry.height)};
     if (entry.seed != 1)
         arguments.insert(arguments.end(), {"--seed", fmt::format("{}", entry.seed)});
+    add_normal(entry.baked, arguments);
     return arguments;
 }
 
@@ -207,7 +241,10 @@ Result<measure::MapSet> load_map(const MapEntry& entry, double scale) {
                     : measure::make_map_set(entry.maker, static_cast<int>(entry.width),
                                             static_cast<int>(entry.height), scale,
                                             static_cast<std::uint32_t>(entry.seed));
-    if (set && !entry.name.empty()) set->name = entry.name;
+    if (!set) return set;
+    if (Status status = measure::add_baked_files(*set, entry.baked, scale); !status)
+        return status.error();
+    if (!entry.name.empty()) set->name = entry.name;
     return set;
 }
 

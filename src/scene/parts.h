@@ -22,6 +22,7 @@ struct MapEntry {
     std::string maker;
     std::int64_t width = 256, height = 256, seed = 1;
     std::optional<measure::MapFiles> files;
+    std::map<std::string, std::filesystem::path> baked = {};  // by kind, of either sort of map
 };
 
 // The tree of a file.  Errors: those of maps::read_file and parse_toml.

@@ -24,6 +24,8 @@
 //     height_map = "wall/height.png"
 //     normal_map = "wall/normal.png"    # where missing: baked from the heights
 //     colour_map = "wall/colour.png"    # where missing: grey
+//     baked = { cone = "wall/cone.png" } # files of `intaglio bake` by kind, of either kind of map;
+//                                       # where missing: baked in memory
 //     [[variant]]
 //     surface = "parallax_occlusion"    # name or composition
 //     targets = ["glsl_450", "hlsl_5_0"]
@@ -61,9 +63,10 @@ struct Scene {
 // once. Surfaces, targets and knob ranges are not checked here: make_variant does.
 //
 // Codes: "scene-syntax", "scene-unknown-key", "scene-type", "scene-range", "scene-choice",
-// "scene-empty", "scene-duplicate", "scene-missing", "scene-conflict", "unknown-map", each with
-// line and column of the first mistake in the file; those of maps::read_file for the scene, and of
-// measure::load_map_set for its maps, with a note that says where the scene names them.
+// "scene-empty", "scene-duplicate", "scene-missing", "scene-conflict", "unknown-map",
+// "unknown-bake", each with line and column of the first mistake in the file; those of
+// maps::read_file for the scene, and of measure::load_map_set and maps::check_pairing for its maps,
+// with a note that says where the scene names them.
 Result<Scene> read_scene_with_sources(const std::filesystem::path& path,
                                       const std::optional<measure::MapFiles>& own_map = {});
 

@@ -209,9 +209,11 @@ TextureReading reading_of(const Variant& variant) {
     if (!variant.target->capabilities.texture_levels)
         reading.one_level = read_by_level(variant.program.pixel, variant.program.pixel.body);
     for (const ir::Module* module : {&variant.program.vertex, &variant.program.pixel})
-        for (const ir::Sampler& sampler : module->samplers)
+        for (const ir::Sampler& sampler : module->samplers) {
             if (sampler.filter == ir::Sampler::Filter::Nearest)
                 reading.nearest.insert(sampler.name);
+            if (!sampler.baked.empty()) reading.baked[sampler.name] = sampler.baked;
+        }
     return reading;
 }
 
@@ -222,6 +224,7 @@ Result<check::Program> link_variant(const Variant& variant) {
     TextureReading reading = reading_of(variant);
     program->one_level = std::move(reading.one_level);
     program->nearest = std::move(reading.nearest);
+    program->baked = std::move(reading.baked);
     return program;
 }
 

@@ -78,6 +78,7 @@ check::Source source_of(const Variant& variant, ir::Stage stage);
 // How the variant's textures are to be given, by name: see check::Program.
 struct TextureReading {
     std::set<std::string> one_level, nearest;
+    std::map<std::string, std::string> baked;
 };
 TextureReading reading_of(const Variant& variant);
 

@@ -36,16 +36,22 @@ class DistanceFunction : public Search {
         // Height that a ball of radius 1 lets the ray descend.
         const float1 descent = let("descent", parts * rsqrt(1.0f + dot(whole_reach, whole_reach) *
                                                                        (1.0f / depth_squared)));
+        const float steps = static_cast<float>(ball_steps.value());
         Step marching("march", "Step over empty balls, until the relief is above the ray.");
         var<float1> t{"t", 0.0f}, step{"step", 0.0f}, above{"above", 0.0f};
         var<float1> gap{"gap", relief.height(ray.uv) - 1.0f};
-        for ([[maybe_unused]] int1 i : march) {
+        for (int1 i : march) {
             march.until(gap >= 0.0f || t >= 1.0f);
             const float2 at = let("at", ray.at(t));
             const float1 height = relief.in_whole(1 - t);
             const float1 slice = height * ((slices - 1) / slices) + 0.5f / slices;
             const float1 radius = let("radius", map.sample_level(float3(at, slice), 0.0f).x());
-            step = min(max(radius * descent, least_step.value()), 1 - t);
+            // A section is left to the next at its floor and nowhere else, so its steps must reach
+            // it: where least steps are too short for that, what is left is shared out evenly.
+            const float1 least = relief.sections == 1
+                                     ? float1(least_step.value())
+                                     : max((1 - t) / (steps - i * 1.0f), least_step.value());
+            step = min(max(radius * descent, least), 1 - t);
             t = t + step;
             above = gap;
             gap = relief.height(ray.at(t)) - (1 - t);

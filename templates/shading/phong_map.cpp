@@ -6,6 +6,8 @@
 // leans, -H.xy, the offset the bumped normal's own lean, N.xy, so that the map's centre is where
 // both agree.  The same map serves diffuse light and highlight, as in the source, where light and
 // eye are one; with the light far from the eye the diffuse part leans halfway to the eye.
+#include <fmt/format.h>
+
 #include "templates/all_techniques.h"
 
 namespace intaglio::templates {
@@ -17,11 +19,16 @@ constexpr float edge = 1.125f;  // the offset at the map's edge
 
 class PhongMap : public Shading {
   public:
+    Knob<float> shininess{this,        "shininess",  32.0f,
+                          at_least{1}, at_most{256}, "exponent of the highlight, as baked"};
+
     float3 shade(const Fragment& fragment) const override {
         const float3 ambient = uniform<3>("ambient", "ambient light, linear rgb");
         const float3 light_colour = uniform<3>("light_colour", "colour of the light, linear rgb");
         const float1 gloss = uniform<1>("gloss", "strength of the highlight");
-        const sampler2D map("phong_map", "diffuse light in red, highlight in alpha, by offset");
+        const sampler2D map("phong_map", "diffuse light in red, highlight in alpha, by offset",
+                            sampler2D::Filter::Linear,
+                            fmt::format("shininess={}", shininess.value()));
 
         const float3 halfway =
             let("halfway", normalize(let("between", fragment.light + fragment.view)));

@@ -1,84 +1,9 @@
 // The program as people use it: products on stdout or whole in files, sentences on stderr,
 // documented exit codes.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include "tests/cli/command_line.h"
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-
-#include "src/maps/makers.h"
-#include "src/maps/png.h"
-
+namespace intaglio::cli {
 namespace {
-
-namespace fs = std::filesystem;
-using testing::HasSubstr;
-using testing::Not;
-
-std::string contents(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
-struct Outcome {
-    int code;
-    std::string out, err;
-};
-
-class CommandLine : public testing::Test {
-  protected:
-    void SetUp() override {
-        // A space, an umlaut and signs that shells and makefiles trip over.
-        folder_ =
-            fs::temp_directory_path() / ("intaglio t\xc3\xa4st @$# " + std::to_string(getpid()));
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
-    std::string path(const std::string& name) const { return (folder_ / name).string(); }
-    void write(const std::string& name, const std::string& bytes) const {
-        std::ofstream(folder_ / name, std::ios::binary) << bytes;
-    }
-    void write_map(const std::string& name, const std::string& maker, int width, int height) const {
-        const auto image = intaglio::maps::make_height_map(maker, width, height, 1);
-        ASSERT_TRUE(image.ok());
-        ASSERT_TRUE(intaglio::maps::write_png(folder_ / name, *image).ok());
-    }
-
-    Outcome run(const std::vector<std::string>& arguments) const {
-        std::string command = "'" INTAGLIO_TOOL "'";
-        for (const std::string& argument : arguments) command += " '" + argument + "'";
-        command += " >'" + path("out") + "' 2>'" + path("err") + "' </dev/null";
-        const int status = std::system(command.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(path("out")),
-                contents(path("err"))};
-    }
-    // Bad input: exit code 2, one sentence with this code, nothing on stdout.
-    Outcome expect_refused(const std::vector<std::string>& arguments,
-                           const std::string& code) const {
-        const Outcome outcome = run(arguments);
-        EXPECT_EQ(outcome.code, 2) << outcome.err;
-        EXPECT_THAT(outcome.err, HasSubstr("[" + code + "]"));
-        EXPECT_THAT(outcome.err, HasSubstr("error: "));
-        EXPECT_EQ(outcome.out, "");
-        return outcome;
-    }
-    std::vector<std::string> picture_of(const std::string& map) const {
-        return {
-            "run", "parallax_occlusion", "-T", "glsl_450", "--height", path(map), "--size", "32x32",
-            "-o",  path("picture.png")};
-    }
-
-    fs::path folder_;
-};
 
 TEST_F(CommandLine, ListsWhatThereIs) {
     EXPECT_THAT(run({"list"}).out, HasSubstr("steep_parallax"));
@@ -244,8 +169,8 @@ TEST_F(CommandLine, DrawsByWayOfBytecode) {
                       .code,
                   0)
             << target;
-    const auto mine = intaglio::maps::read_png(path("ps_3_0.png")),
-               theirs = intaglio::maps::read_png(path("glsl_450.png"));
+    const auto mine = maps::read_png(path("ps_3_0.png")),
+               theirs = maps::read_png(path("glsl_450.png"));
     ASSERT_TRUE(mine.ok() && theirs.ok());
     // Eight bits hide most of what mad and rcp round otherwise.
     int far = 0;
@@ -331,7 +256,7 @@ TEST_F(CommandLine, DrawsARealMap) {
                                  "--colour", INTAGLIO_ROOT "/examples/maps/stone_bricks/colour.png",
                                  "--size", "64x64", "--validation", "-o", path("picture.png")});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
-    const auto picture = intaglio::maps::read_png(path("picture.png"));
+    const auto picture = maps::read_png(path("picture.png"));
     ASSERT_TRUE(picture.ok());
     EXPECT_EQ(picture->width, 64);
 }
@@ -402,25 +327,6 @@ TEST_F(CommandLine, UnchangedOutputsKeepTheirTime) {
     EXPECT_EQ(fs::last_write_time(path("fur.frag")), old_time);
 }
 
-TEST_F(CommandLine, BakesEveryKindOfMap) {
-    write_map("height.png", "cobbles", 32, 16);
-    EXPECT_EQ(
-        run({"bake", "normal", path("height.png"), "-o", path("normal.png"), "--keep-height"}).code,
-        0);
-    const auto normals = intaglio::maps::read_png(path("normal.png"));
-    ASSERT_TRUE(normals.ok());
-    EXPECT_EQ(normals->channels, 4);
-    for (const char* kind : {"cone", "relaxed-cone", "max-mip", "summit", "patch", "horizon",
-                             "distance", "view-dependent"})
-        EXPECT_EQ(run({"bake", kind, path("height.png"), "-o", path("baked.png")}).code, 0) << kind;
-    EXPECT_EQ(run({"bake", "phong", "--size", "64x64", "-o", path("phong.png")}).code, 0);
-    expect_refused({"bake", "horizon", path("height.png"), "-o", path("h.png"), "--azimuths", "7"},
-                   "azimuths-range");
-    expect_refused({"bake", "normal", path("height.png"), "-o", path("n.png"), "--kernel", "box"},
-                   "option-value");
-    expect_refused({"bake", "normal", path("missing.png"), "-o", path("n.png")}, "file-missing");
-}
-
 TEST_F(CommandLine, ValidatesEveryTarget) {
     const Outcome outcome = run({"validate", "parallax_occlusion"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
@@ -464,3 +370,4 @@ TEST_F(CommandLine, MeasuresAScene) {
 }
 
 }  // namespace
+}  // namespace intaglio::cli

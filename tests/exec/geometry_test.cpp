@@ -1,5 +1,5 @@
-// Displaced geometry and shells, drawn by the rasteriser, against the exact reference and against
-// the march: three ways to one surface that share no arithmetic.
+// Displaced geometry, drawn by the rasteriser, against the exact reference: two ways to one surface
+// that share no arithmetic.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -8,38 +8,16 @@
 
 #include <fmt/format.h>
 
-#include "tests/exec/bench.h"
+#include "tests/exec/geometry.h"
 
-#include "src/measure/displaced.h"
-#include "src/measure/hits.h"
 #include "src/measure/shells.h"
 
 namespace intaglio::exec {
 namespace {
 
-using measure::Direction;
-using reference::HeightField;
-
-constexpr int side = 64;  // texels and pixels of the maps and pictures here
-constexpr Direction light = {45, 130};
-constexpr float scale = static_cast<float>(test_scale);
-
 // Where the rasteriser puts a vertex, lavapipe with its 8 bits of subpixels: at most half of one
 // off along each axis.  In texture units; a displaced coordinate is off by no more.
 constexpr double snap = std::numbers::sqrt2 / 512 / side;
-
-check::Program compiled(const VariantRequest& wanted) {
-    const dsl::Catalogue catalogue = measure::with_geometry(templates::all_techniques());
-    return must(link_variant(must(make_variant(catalogue, wanted))));
-}
-
-VariantRequest displaced_request() {
-    return request("search=displaced,output=displaced", "glsl_450");
-}
-
-HeightField field_of(const measure::MapSet& set) {
-    return set.height_field(reference::FilterWeights::Exact);
-}
 
 HeightField raised(HeightField field, double by) {
     for (double& height : field.heights) height += by;
@@ -206,16 +184,6 @@ TEST(DisplacedGeometry, AgreesInPerspectiveToo) {
     EXPECT_GT(inside, side * side / 2) << "the camera looks at the map";
 }
 
-double mean_error(const measure::MapSet& set, const vulkan::Picture& picture, Direction view) {
-    const HeightField field = field_of(set);
-    const measure::ExactPicture exact =
-        measure::trace_exact(field, view, light, scale, picture.width, picture.height);
-    double sum = 0;
-    for (const measure::HitError& error : measure::compare_hits(picture, exact, field, view, scale))
-        sum += static_cast<double>(error.texels);
-    return sum / static_cast<double>(picture.pixels.size());
-}
-
 TEST(DisplacedGeometry, ConvergesWithTheSquareOfTheSubdivisions) {
     const measure::MapSet noise = map_named("noise", side, side);
     const Direction view = {60, 20};
@@ -317,115 +285,6 @@ TEST(DisplacedGeometry, SilhouettesOfASphereAreWhereTheGeometryIs) {
     EXPECT_EQ(wrong, 0);
     EXPECT_GT(rim, side) << "rays that meet the smooth sphere pass the relief: true silhouettes";
     EXPECT_LT(undecided, side * side / 20);
-}
-
-// Shells of a map, and their overdraw.
-struct ShellsDrawn {
-    vulkan::Picture picture;
-    double overdraw = 0;  // mean fragments per pixel
-};
-ShellsDrawn draw_shells(const measure::MapSet& set, Direction view, int layers) {
-    const VariantRequest wanted = request("output=displaced", "glsl_450");
-    // A layer reaches as far beyond the picture's edges as rays travel.
-    const double margin = measure::reach_of(view, scale) + 1.0 / side;
-    const vulkan::Mesh mesh = must(measure::shells_of(
-        vulkan::quad({{-margin, 1 + margin}, {-margin, 1 + margin}}), layers, scale));
-    const auto prepared = [&](bool counting) {
-        vulkan::Program program = must(measure::prepare_parallel(
-            device(), compiled(measure::shells_request(wanted, layers, counting)),
-            measure::Textures(set, measure::Filtering::Float), scale, side, side, mesh, view, light,
-            measure::shells_link()));
-        must(measure::set_shells(program));
-        return program;
-    };
-    vulkan::Program counting = prepared(true);
-    ShellsDrawn drawn{must(prepared(false).draw())[0]};
-    for (const int fragments : must(measure::count_overdraw(counting, layers)))
-        drawn.overdraw += static_cast<double>(fragments) / (side * side);
-    return drawn;
-}
-
-// The march with as many equal steps, and the reads it takes.
-struct Marched {
-    vulkan::Picture picture;
-    double reads = 0;  // mean per pixel
-};
-Marched march(const measure::MapSet& set, Direction view, int steps, const std::string& search,
-              const Knobs& knobs) {
-    VariantRequest wanted = request(search + ",output=displaced", "glsl_450", knobs);
-    wanted.count_reads = true;
-    const std::vector<vulkan::Picture> pictures =
-        draw(wanted, set, view, light, side, measure::Filtering::Float);
-    Marched marched{pictures[0]};
-    for (const auto& pixel : pictures[1].pixels)
-        marched.reads += static_cast<double>(pixel[0]) / (side * side);
-    EXPECT_LE(marched.reads, steps + 1);
-    return marched;
-}
-Marched march_steps(const measure::MapSet& set, Direction view, int steps) {
-    const std::string count = std::to_string(steps);
-    return march(set, view, steps, "steep_parallax", {{"min_steps", count}, {"max_steps", count}});
-}
-
-TEST(Shells, AreTheSamplesOfAMarchInEqualSteps) {
-    for (const char* maker : {"fur", "cobbles"})
-        for (const int layers : {8, 32}) {
-            const measure::MapSet set = map_named(maker, side, side);
-            const Direction view = {45, 20};
-            const ShellsDrawn shells = draw_shells(set, view, layers);
-            const Marched marched = march_steps(set, view, layers);
-            int differing = 0;
-            for (std::size_t i = 0; i < marched.picture.pixels.size(); ++i) {
-                const auto& a = shells.picture.pixels[i];
-                const auto& b = marched.picture.pixels[i];
-                const float apart = std::max(std::abs(a[0] - b[0]), std::abs(a[1] - b[1]));
-                // Heights by the slope more than coordinates: up to 64 per texture unit.
-                differing += apart > 1e-5f || std::abs(a[2] - b[2]) > 1e-3f;
-            }
-            // Where a sample lies within rounding of the relief either may see it.
-            EXPECT_LE(differing, side * side / 500) << maker << ", " << layers;
-            EXPECT_EQ(shells.overdraw, layers) << "every layer covers the picture";
-        }
-}
-
-TEST(Shells, AreOffByAboutALayerWhereTheyAreDense) {
-    const measure::MapSet set = map_named("smooth", side, side);
-    const Direction view = {45, 20};
-    double before = 1e9;
-    for (const int layers : {8, 32, 128}) {
-        const double error = mean_error(set, draw_shells(set, view, layers).picture, view);
-        const double step = measure::reach_of(view, scale) / layers * side;  // texels
-        fmt::print("{} shells: mean error {:.3g} texels, a layer's step {:.3g}\n", layers, error,
-                   step);
-        EXPECT_LT(error, step);
-        EXPECT_LT(error, before * 0.4);
-        before = error;
-    }
-}
-
-TEST(Shells, FurByMarchCostsFewerReadsThanShellsFragmentsAtEqualError) {
-    const measure::MapSet fur = map_named("fur", side, side);
-    for (const double elevation : {60.0, 30.0}) {
-        const Direction view = {elevation, 20};
-        constexpr int layers = 32;
-        const ShellsDrawn shells = draw_shells(fur, view, layers);
-        const Marched marched = march_steps(fur, view, layers);
-        const double shell_error = mean_error(fur, shells.picture, view);
-        const double march_error = mean_error(fur, marched.picture, view);
-        fmt::print(
-            "fur at {}: {} shells, error {:.3g}, overdraw {:.3g}; march, error {:.3g}, reads "
-            "{:.3g}\n",
-            elevation, layers, shell_error, shells.overdraw, march_error, marched.reads);
-        EXPECT_LE(march_error, shell_error * 1.01);
-        EXPECT_LT(marched.reads, shells.overdraw * 0.9) << "the march ends where it hits";
-        // And a march may look between its samples, which no layer can.
-        const Marched refined = march(fur, view, layers, "relief_secant", {{"linear_steps", "12"}});
-        const double refined_error = mean_error(fur, refined.picture, view);
-        fmt::print("  12 steps and a secant: error {:.3g}, reads {:.3g}\n", refined_error,
-                   refined.reads);
-        EXPECT_LT(refined_error, shell_error);
-        EXPECT_LT(refined.reads, shells.overdraw * 0.5);
-    }
 }
 
 }  // namespace

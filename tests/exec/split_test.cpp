@@ -154,7 +154,8 @@ TEST(Split, SectionsOnTheDeviceAreTheLongerMarch) {
 }
 
 // Whatever the search: with its own number of steps for each half of the relief, it misses no more
-// and is no further off at the median than with that number for the whole.
+// and is no further off, at the median and the 95th percentile, than with that number for the
+// whole.
 TEST(Split, SectionsMakeNoSearchWorse) {
     const measure::MapSet set = map_named("cobbles");
     const measure::Textures textures(set, measure::Filtering::Float);
@@ -175,9 +176,12 @@ TEST(Split, SectionsMakeNoSearchWorse) {
         if (halves.pixels == 0) continue;
         ++searched;
         const auto whole = statistics(request("search=" + search.name, "glsl_450"));
-        EXPECT_LE(halves.missed, whole.missed) << search.name;
+        // One in a thousand: a feature thinner than a step is met or missed by where the step
+        // falls.
+        EXPECT_LE(halves.missed, whole.missed + whole.pixels / 1000) << search.name;
         // 1e-4 texels: rounding, for searches that are exact.
         EXPECT_LE(halves.median, whole.median + 1e-4) << search.name;
+        EXPECT_LE(halves.p95, whole.p95 + 1e-4) << search.name;
         EXPECT_EQ(halves.invalid, 0) << search.name;
     }
     EXPECT_GE(searched, 3) << "none, and every march";

@@ -151,10 +151,14 @@ Result<int> interpolant_location(const ir::Program& program, const ir::Declarati
 }
 
 std::string sampler_comment(const ir::Sampler& sampler) {
-    if (sampler.filter == ir::Sampler::Filter::Linear) return sampler.comment;
-    constexpr std::string_view filter = "sample it nearest, in texel and level";
-    return sampler.comment.empty() ? std::string(filter)
-                                   : fmt::format("{}; {}", sampler.comment, filter);
+    std::string comment = sampler.comment;
+    const auto add = [&](std::string_view wish) {
+        comment += fmt::format("{}{}", comment.empty() ? "" : "; ", wish);
+    };
+    if (!sampler.baked.empty()) add("baked with " + sampler.baked);
+    if (sampler.filter == ir::Sampler::Filter::Nearest)
+        add("sample it nearest, in texel and level");
+    return comment;
 }
 
 int sampler_slot(const ir::Program& program, const std::string& name) {

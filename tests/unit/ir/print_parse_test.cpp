@@ -24,6 +24,7 @@ uniform scale float1 "depth of the relief in texture units"
 uniform world float4[3]
 sampler height_map 2d
 sampler distance_map 3d nearest "empty radius"
+sampler phong_map 2d baked "shininess=32"
 file "templates/search/parallax_occlusion.cpp"
 step march "March the view ray down through the relief."
 {

@@ -95,7 +95,8 @@ class RandomModule {
         for (int i = 0; i < samplers; ++i)
             module_.samplers.push_back(
                 {distinct(i), random_.chance(70) ? 2 : 3, random_.chance(50) ? text("c") : "",
-                 random_.chance(70) ? Sampler::Filter::Linear : Sampler::Filter::Nearest});
+                 random_.chance(70) ? Sampler::Filter::Linear : Sampler::Filter::Nearest,
+                 random_.chance(70) ? "" : text("steps=")});
         for (int i = random_.below(3); i > 0; --i) module_.files.push_back(text("dir/file"));
         for (int i = random_.below(3); i > 0; --i)
             module_.steps.push_back({text("step"), text("What it does, ")});

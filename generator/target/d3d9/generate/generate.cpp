@@ -139,11 +139,15 @@ Result<PixelStage> smallest_pixel_stage(const ir::Program& recorded, Profile pro
         if (better(stage->candidate, best->candidate)) best = std::move(*stage);
         if (least) best->candidate.at_least = least;
     }
-    for (const ir::Sampler& sampler : recorded.pixel.samplers)
+    for (const ir::Sampler& sampler : recorded.pixel.samplers) {
         if (sampler.filter == ir::Sampler::Filter::Nearest)
             best->candidate.notes.push_back(
                 fmt::format("{} must be sampled nearest: set its three filters to D3DTEXF_POINT.",
                             sampler.name));
+        if (!sampler.baked.empty())
+            best->candidate.notes.push_back(
+                fmt::format("{} must be baked with {}.", sampler.name, sampler.baked));
+    }
     return std::move(*best);
 }
 
