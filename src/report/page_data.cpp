@@ -71,9 +71,7 @@ void add_variant(PageData& page, const Json& row) {
     variant["technique"] = request.surface;
     for (auto& [knob, value] : variant["knobs"].items()) value = number_or_text(value);
     variant["emit_command"] = variant_command("emit", request);
-    variant["explain_command"] = variant.value("d3d9", Json()).is_null()
-                                     ? Json()
-                                     : Json(variant_command("explain", request));
+    variant["explain_command"] = variant_command("explain", request);
     page.json["variants"].push_back(std::move(variant));
 }
 

@@ -17,7 +17,7 @@ namespace intaglio::report {
 //   device    the device's name
 //   maps      [{name, width, height, bits}]
 //   variants  [{surface, technique, target, knobs: {name: number}, spirv: {...}, d3d9: {...} or
-//             null, emit_command, explain_command or null}]
+//             null, emit_command, explain_command}]
 //   cases     [{map, variant (both counted from 0), view: {elevation, azimuth}, light, scale,
 //             reads: {mean, max}, hits, command; of a sweep also arithmetic, instructions, swim,
 //             picture, split; of `measure` also time}]: numbers as measured; what is not known is
@@ -46,10 +46,13 @@ Result<PageData> page_data_of_measurement(const std::string& text, const std::st
 Result<PageData> page_data_of_sweep(const std::string& text, const std::string& file,
                                     const dsl::Catalogue& catalogue);
 
-// The emitted text of each variant's pixel stage, {text, lines: [[arithmetic, texture] or null],
-// line_units, line_notes}, and for Direct3D 9 the limits beside what is used:
-// json["sources"], variants[i].source and variants[i].resources.  A variant that cannot be made any
-// more is an error: then the data is older than the program.
+// The emitted text of each variant's pixel stage and who spends what it costs, {text, spent: {unit,
+// lines: [{step, place, arithmetic, texture}], reads: [{sampler, level or null, step, place}]}} as
+// src/variant/explain.h counts: "slots" or "operations", "" where there is no step or place, lines
+// in the order of steps.  For Direct3D 9 also {lines: [[arithmetic, texture] or null], line_units,
+// lines_note} of the text, and the limits beside what is used.  json["sources"], variants[i].source
+// and variants[i].resources.  A variant that cannot be made any more is an error: then the data is
+// older than the program.
 Status add_sources(PageData& page, const dsl::Catalogue& catalogue);
 
 // What the compilers of these chips make of each pixel stage (src/measure/cost.h):

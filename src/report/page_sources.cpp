@@ -1,10 +1,11 @@
-// The emitted shaders of a page, and what their lines take.
+// The emitted shaders of a page, what their lines take, and whose lines of C++ those are.
 #include <algorithm>
 
 #include "generator/target/d3d9/assembly.h"
 #include "generator/target/d3d9/explain.h"
 #include "src/measure/cost.h"
 #include "src/report/page_data.h"
+#include "src/variant/explain.h"
 
 namespace intaglio::report {
 namespace {
@@ -31,6 +32,29 @@ Json slots_by_line(const std::string& text, const d3d9::Shader& shader) {
     return lines;
 }
 
+std::string place_of(const std::string& file, int line) {
+    return file.empty() ? std::string() : file + ":" + std::to_string(line);
+}
+
+// Who spends what the pixel stage of a variant that fits costs.
+Json spending(const ExplainedStage& stage) {
+    const bool counts_slots = stage.profile.has_value();
+    Json json = {{"unit", counts_slots ? "slots" : "operations"},
+                 {"lines", Json::array()},
+                 {"reads", Json::array()}};
+    for (const d3d9::Spent& line : stage.explanation.lines)
+        json["lines"].push_back({{"step", line.step},
+                                 {"place", place_of(line.file, line.line)},
+                                 {"arithmetic", line.slots.arithmetic},
+                                 {"texture", line.slots.texture}});
+    for (const d3d9::TextureRead& read : stage.explanation.reads)
+        json["reads"].push_back({{"sampler", read.sampler},
+                                 {"level", counts_slots ? Json(read.level) : Json()},
+                                 {"step", read.step},
+                                 {"place", place_of(read.file, read.line)}});
+    return json;
+}
+
 }  // namespace
 
 Status add_sources(PageData& page, const dsl::Catalogue& catalogue) {
@@ -42,7 +66,11 @@ Status add_sources(PageData& page, const dsl::Catalogue& catalogue) {
         const Result<Product> product = product_of(*variant, ir::Stage::Pixel);
         if (!product) return product.error();
         if (product->binary) continue;
+        const Result<ExplainedVariant> explained = explain_variant(catalogue, page.variants[i]);
+        if (!explained) return explained.error();
         Json source = {{"text", product->bytes}};
+        for (const ExplainedStage& stage : explained->stages)
+            if (stage.stage == ir::Stage::Pixel) source["spent"] = spending(stage);
         Json& row = page.json["variants"][i];
         if (profile_of(*variant->target)) {
             const Result<d3d9::Shader> shader = decode_stage(*variant, ir::Stage::Pixel);

@@ -75,9 +75,9 @@ Status add_times(PageData& page, const dsl::Catalogue& catalogue,
     }
     for (Timed& row : *rows) {
         std::sort(row.ratios.begin(), row.ratios.end());
-        page.json["variants"][row.variant]["time"] = {
-            {"ratio", quantile(row.ratios, 0.5)},
-            {"spread", (quantile(row.ratios, 0.75) - quantile(row.ratios, 0.25)) / 2}};
+        page.json["variants"][row.variant]["time"] = {{"ratio", quantile(row.ratios, 0.5)},
+                                                      {"ratio_low", quantile(row.ratios, 0.25)},
+                                                      {"ratio_high", quantile(row.ratios, 0.75)}};
     }
     const bool is_cpu = device->name().find("llvmpipe") != std::string::npos ||
                         device->name().find("SwiftShader") != std::string::npos;

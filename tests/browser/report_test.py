@@ -137,6 +137,9 @@ class ReportTest(unittest.TestCase):
                 self.assertTrue(is_close(float(row[column]), value_of(case)), f"{cost}: {row}")
                 error = float(row["hit error, 95th percentile (texels)"])
                 self.assertTrue(is_close(error, case["hits"]["p95"]), f"{cost}: {row}")
+                for quartile, key in (("lower", "ratio_low"), ("upper", "ratio_high")) if cost == "time" else ():
+                    shown = float(row[f"{quartile} quartile of its rounds"])
+                    self.assertTrue(is_close(shown, case["time"][key]), f"{quartile}: {row}")
                 # On the front: nothing is at least as good in both and better in one; errors below 0.001 count alike.
                 mine = (value_of(case), max(error, 0.001))
                 beaten = any(other != mine and other[0] <= mine[0] and other[1] <= mine[1] for other in
@@ -228,6 +231,20 @@ class ReportTest(unittest.TestCase):
               [...row.querySelectorAll('.slots')].map(cell => +cell.textContent));""")
         spent = self.results["rows"][index]["d3d9"]
         self.assertEqual([sum(line[k] for line in slots) for k in (0, 1)], [spent["arithmetic"], spent["texture"]])
+
+    def test_shaders_say_who_spends_it(self):
+        rows = """
+            return [...document.querySelectorAll(`#source-spent tr.${arguments[0]}`)].map(row =>
+              [...row.querySelectorAll('.slots')].map(cell => +cell.textContent));"""
+        for index, row in enumerate(self.results["rows"]):
+            self.choose("source-variant", str(index))
+            explained = json.loads(subprocess.run(
+                [intaglio, "explain", row["surface"], "-T", row["target"], "--json",
+                 *(word for knob, value in row["knobs"].items() for word in ("-D", f"{knob}={value}"))],
+                check=True, capture_output=True).stdout)["stages"][0]
+            for kind, expected in (("step", explained["steps"]), ("spends", explained["lines"])):
+                self.assertEqual(self.run_script(rows, kind),
+                                 [[line["arithmetic"], line["texture"]] for line in expected], row)
 
     def test_schemes_and_widths(self):
         paper = "return getComputedStyle(document.body).backgroundColor"

@@ -112,6 +112,7 @@ function axisFor(measure, values, title) {
     return {
       type: 'linear',
       beginAtZero: true,
+      suggestedMax: top,
       grid,
       title: name,
       ticks: {...colours, maxTicksLimit: 8},
@@ -138,6 +139,33 @@ function axisFor(measure, values, title) {
 }
 // Ticks keep what plain() would cut.
 const plain2 = value => String(Number(value.toPrecision(6)));
+
+// From quartile to quartile of a cost that was measured in rounds.
+const spreadBars = {
+  id: 'spreadBars',
+  beforeDatasetsDraw(chart) {
+    const {ctx} = chart;
+    ctx.save();
+    ctx.lineWidth = 1.5;
+    for (const set of chart.data.datasets)
+      for (const {y, value} of set.data) {
+        const [low, high] = value?.quartiles ?? [];
+        if (low == null || high == null || set.radius === 0) continue;
+        ctx.strokeStyle = set.borderColor;
+        const middle = chart.scales.y.getPixelForValue(y),
+          ends = [low, high].map(end => chart.scales.x.getPixelForValue(end));
+        ctx.beginPath();
+        ctx.moveTo(ends[0], middle);
+        ctx.lineTo(ends[1], middle);
+        for (const end of ends) {
+          ctx.moveTo(end, middle - 4);
+          ctx.lineTo(end, middle + 4);
+        }
+        ctx.stroke();
+      }
+    ctx.restore();
+  },
+};
 
 // Names beside the points of a front, left out where they would cover one another.
 const frontLabels = {

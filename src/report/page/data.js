@@ -58,6 +58,9 @@ const errorMeasures = [
   },
 ].filter(measure => data.cases.some(item => measure.of(item) != null));
 
+// {ratio, ratio_low, ratio_high}: of the case, or of its variant.
+const timeOf = c => (at(c, 'time', 'ratio') == null ? variantOf(c).time : c.time);
+
 // Chips whose compilers were asked.
 const chips = [...new Set(data.variants.flatMap(variant => Object.keys(variant.chips ?? {})))];
 
@@ -119,7 +122,8 @@ const costMeasures = [
     name: 'time, as a ratio to the first variant',
     unit: 'on the device',
     floor: 0.5,
-    of: c => at(c, 'time', 'ratio') ?? at(variantOf(c), 'time', 'ratio'),
+    of: c => at(timeOf(c), 'ratio'),
+    quartiles: ['ratio_low', 'ratio_high'].map(key => c => at(timeOf(c), key)),
   },
 ].filter(measure => data.cases.some(item => measure.of(item) != null));
 
@@ -144,6 +148,15 @@ function stepsKnob(technique) {
   const names = Object.keys(values).filter(name => values[name].size > 1 && counts.test(name));
   return names.sort((a, b) => values[b].size - values[a].size)[0] ?? null;
 }
+
+// Of a measure that is a median over rounds, its quartiles as words.
+function quartilesText(values) {
+  return values.length && values.every(value => value != null)
+    ? `, quartiles ${values.map(plain).join(' and ')}`
+    : '';
+}
+const quartilesOf = (measure, item) => (measure.quartiles ?? []).map(quartile => quartile(item));
+const quartileNames = ['lower quartile of its rounds', 'upper quartile of its rounds'];
 
 // Numbers for people: three digits, no exponents.  The full number is in the table cell's data-value.
 function plain(value) {

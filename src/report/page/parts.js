@@ -151,7 +151,9 @@ function caseCard(item, measures, {withPicture = true} = {}) {
       element(
         'dd',
         {'data-value': value},
-        value == null ? 'not measured' : `${plain(value)} ${measure.unit}`,
+        value == null
+          ? 'not measured'
+          : `${plain(value)} ${measure.unit}${quartilesText(quartilesOf(measure, item))}`,
       ),
     );
   });

@@ -114,14 +114,16 @@ const caseColumns = [
 ];
 const commandColumn = {name: 'Command', command: true, of: row => row.case.command};
 
-// One point for each variant: the greatest error of its cases, its mean cost, and the case with that error.
+// One point for each variant: the greatest error of its cases, its mean cost with the means of its quartiles, and the
+// case with that error.
 function pointsOf(items, cost, error) {
   const points = [];
   for (const [variant, own] of byVariant(items)) {
     const y = greatest(own.map(error.of)),
       x = mean(own.map(cost.of));
     if (x == null || y == null) continue;
-    points.push({variant, x, y, case: own.find(item => error.of(item) === y)});
+    const quartiles = (cost.quartiles ?? []).map(quartile => mean(own.map(quartile)));
+    points.push({variant, x, y, quartiles, case: own.find(item => error.of(item) === y)});
   }
   return points;
 }
@@ -216,7 +218,9 @@ function makePareto(view) {
   const note =
     (without
       ? `${without} of the ${byVariant(cases).length} variants have no value of “${cost.name}” or of the error, and are not drawn. `
-      : '') + `Shown: ${view.filter.words()}.`;
+      : '') +
+    `Shown: ${view.filter.words()}.` +
+    (cost.quartiles ? ' Bars reach from quartile to quartile of the rounds.' : '');
   if (!points.length)
     return {label: `No variant has both of these here. ${note}`, points, techniques: techniquesIn(all)};
   // What is below the least error that is drawn is no better for it.
@@ -228,7 +232,7 @@ function makePareto(view) {
   });
   const xAxis = axisFor(
       cost,
-      points.map(point => point.x),
+      points.flatMap(point => [point.x, ...point.quartiles]),
     ),
     yAxis = axisFor(
       error,
@@ -268,6 +272,11 @@ function makePareto(view) {
     columns: [
       ...caseColumns,
       {name: `${cost.name} (${cost.unit})`, number: true, of: row => row.x},
+      ...(cost.quartiles ?? []).map((_, i) => ({
+        name: quartileNames[i],
+        number: true,
+        of: row => row.quartiles[i],
+      })),
       {name: `${error.name} (${error.unit})`, number: true, of: row => row.y},
       {name: 'On the front', of: row => (row.onFront ? 'yes' : 'no')},
       commandColumn,
@@ -284,11 +293,11 @@ function makePareto(view) {
           tooltip: tooltipOf(raw => [
             variantName(data.variants[raw.value.variant]),
             `${error.name}: ${plain(raw.value.y)} ${error.unit}`,
-            `${cost.name}: ${plain(raw.value.x)} ${cost.unit}`,
+            `${cost.name}: ${plain(raw.value.x)} ${cost.unit}${quartilesText(raw.value.quartiles)}`,
           ]),
         },
       },
-      plugins: [frontLabels],
+      plugins: [spreadBars, frontLabels],
     },
   };
 }

@@ -125,11 +125,10 @@ function makeMakers() {
         [
           ...caseColumns.map(column => ({...column, of: item => column.of({case: item})})),
           {name: 'Light', of: item => directionName(item.light)},
-          ...[...costMeasures, ...errorMeasures].map(measure => ({
-            name: `${measure.name} (${measure.unit})`,
-            number: true,
-            of: measure.of,
-          })),
+          ...[...costMeasures, ...errorMeasures].flatMap(measure => [
+            {name: `${measure.name} (${measure.unit})`, number: true, of: measure.of},
+            ...(measure.quartiles ?? []).map((of, i) => ({name: quartileNames[i], number: true, of})),
+          ]),
           {name: 'Command', command: true, of: item => item.command},
         ],
         data.cases,

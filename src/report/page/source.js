@@ -1,4 +1,4 @@
-// Emitted shaders with what each line takes, budgets with their headroom, and errors by their source.
+// Emitted shaders with what each line takes and who spends it, budgets with their headroom, and errors by their source.
 
 // One bar for each limited resource.
 function headroomBars(resources) {
@@ -154,6 +154,66 @@ function sourceTable(source) {
   );
 }
 
+// Who spends it: the steps of a technique, dearest first, each with its lines of C++.
+function spentTable(spent) {
+  const steps = new Map();
+  for (const line of spent.lines) {
+    if (!steps.has(line.step)) steps.set(line.step, []);
+    steps.get(line.step).push(line);
+  }
+  const sum = (lines, key) => lines.reduce((total, line) => total + line[key], 0);
+  const dearest = Math.max(1, ...spent.lines.map(line => line.arithmetic + line.texture));
+  const row = (attributes, name, {arithmetic, texture}) =>
+    element(
+      'tr',
+      attributes,
+      element('td', {class: 'number slots'}, String(arithmetic)),
+      element('td', {class: 'number slots'}, String(texture)),
+      element('td', {class: 'place'}, ...name.split(/(?<=\/)/).flatMap(part => [part, element('wbr')])),
+    );
+  const rows = [...steps].flatMap(([step, lines]) => [
+    row({class: 'step'}, step || 'outside steps', {
+      arithmetic: sum(lines, 'arithmetic'),
+      texture: sum(lines, 'texture'),
+    }),
+    ...lines.map(line =>
+      row(
+        {class: 'spends', style: `--share: ${(0.6 * (line.arithmetic + line.texture)) / dearest}`},
+        line.place || 'unknown line',
+        line,
+      ),
+    ),
+  ]);
+  const head = element(
+    'tr',
+    {},
+    element('th', {class: 'number'}, `Arithmetic ${spent.unit}`),
+    element('th', {class: 'number'}, `Texture ${spent.unit}`),
+    element('th', {}, 'Step, and its lines of C++'),
+  );
+  return element(
+    'div',
+    {class: 'scroll code', tabindex: 0, role: 'region', 'aria-label': 'Who spends it'},
+    element('table', {id: 'source-spent'}, element('thead', {}, head), element('tbody', {}, ...rows)),
+  );
+}
+
+function readsTable(reads) {
+  const hasLevels = reads.some(read => read.level != null);
+  return tableBehind(`Texture reads: ${reads.length}`, () =>
+    table(
+      [
+        {name: 'Texture', of: read => read.sampler},
+        ...(hasLevels ? [{name: 'Dependent level', number: true, of: read => read.level}] : []),
+        {name: 'Step', of: read => read.step || 'outside steps'},
+        {name: 'Line of C++', of: read => read.place || 'unknown'},
+      ],
+      reads,
+      {id: 'source-reads'},
+    ),
+  );
+}
+
 let showSource = () => {};
 
 function makeSource() {
@@ -169,10 +229,15 @@ function makeSource() {
   const fill = value => {
     const variant = data.variants[Number(value)],
       source = data.sources[variant.source];
+    const ofLanguage =
+      'Operations are those of the optimised shader as it is printed: each vector operation and each branch ' +
+      "counts once, and so does a loop's body.";
     box.replaceChildren(
       command(variant.emit_command),
-      element('p', {class: 'note'}, source.lines_note ?? ''),
-      sourceTable(source),
+      element('p', {class: 'note'}, source.lines_note ?? ofLanguage),
+      element('div', {class: 'beside'}, sourceTable(source), spentTable(source.spent)),
+      readsTable(source.spent.reads),
+      command(variant.explain_command),
     );
   };
   const select = choice(

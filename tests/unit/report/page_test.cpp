@@ -5,12 +5,14 @@
 
 #include <nlohmann/json.hpp>
 #include <random>
+#include <set>
 
 #include "src/report/base64.h"
 #include "src/report/command.h"
 #include "src/report/front.h"
 #include "src/report/html.h"
 #include "src/report/report.h"
+#include "templates/all_techniques.h"
 #include "tests/unit/report/sample.h"
 
 namespace intaglio::report {
@@ -55,6 +57,50 @@ TEST(PageData, SaysWhatIsWrongWithAFile) {
     EXPECT_EQ(code_of("{}"), "not-results results.json");
     EXPECT_EQ(code_of("[1]"), "not-results results.json");
     EXPECT_EQ(code_of(R"({"schema": "intaglio.measurement"})"), "not-results results.json");
+}
+
+// On every kind of target: who spends is the whole cost, by lines that are told apart, and reads
+// are what the texture column counts.
+TEST(PageData, SaysOfEverySourceWhoSpendsIt) {
+    const dsl::Catalogue catalogue = templates::all_techniques();
+    PageData page;
+    page.json["variants"] = Json::array();
+    for (const char* target : {"ps_2_b", "ps_3_0", "glsl_450", "hlsl_5_0", "essl_300"}) {
+        page.variants.push_back({"parallax_occlusion", target, {{"taps", "4"}}, {}, false, false});
+        page.json["variants"].push_back(Json::object());
+    }
+    const Status status = add_sources(page, catalogue);
+    ASSERT_TRUE(status) << to_string(status.error());
+    ASSERT_EQ(page.json["sources"].size(), page.variants.size());
+    for (std::size_t i = 0; i < page.variants.size(); ++i) {
+        SCOPED_TRACE(page.variants[i].target);
+        const Json &source = page.json["sources"][i], &spent = source["spent"];
+        const bool is_direct3d9 = source.contains("lines");
+        EXPECT_EQ(is_direct3d9, i < 2);
+        EXPECT_EQ(spent["unit"], is_direct3d9 ? "slots" : "operations");
+        int arithmetic = 0, texture = 0;
+        std::set<std::string> steps, lines;
+        for (const Json& line : spent["lines"]) {
+            arithmetic += line["arithmetic"].get<int>();
+            texture += line["texture"].get<int>();
+            steps.insert(line["step"]);
+            EXPECT_TRUE(lines.insert(line["step"].dump() + line["place"].dump()).second) << line;
+        }
+        EXPECT_GT(arithmetic, 0);
+        EXPECT_GE(steps.size(), 3U);
+        EXPECT_EQ(static_cast<std::size_t>(texture), spent["reads"].size());
+        for (const Json& read : spent["reads"]) {
+            EXPECT_THAT(read["place"], HasSubstr(".cpp:"));
+            EXPECT_TRUE(lines.count(read["step"].dump() + read["place"].dump())) << read;
+            EXPECT_EQ(read["level"].is_null(), !is_direct3d9);
+        }
+        if (!is_direct3d9) continue;
+        int of_text[2] = {0, 0};
+        for (const Json& line : source["lines"])
+            for (std::size_t k = 0; k < 2 && !line.is_null(); ++k) of_text[k] += line[k].get<int>();
+        EXPECT_EQ(arithmetic, of_text[0]);
+        EXPECT_EQ(texture, of_text[1]);
+    }
 }
 
 // A line of a sweep, with what the adapter reads.
