@@ -31,7 +31,8 @@ struct Case {
     int size = 128;  // pixels a side; a power of two, so that coordinates are exact on lavapipe
     Filtering filtering = Filtering::Float;
     Arithmetic arithmetic = Arithmetic::Fp32;
-    int split_size = 32;  // rays a side whose error is split by source; 0: it is not
+    int split_size = 31;  // rays a side whose error is split by source; 0: it is not.  A prime, so
+                          // that they fall everywhere on maps that repeat themselves.
 };
 
 // A map with what results say of it.

@@ -16,7 +16,7 @@ struct Axes {
     std::vector<double> scales;
     measure::Filtering filtering = measure::Filtering::Float;
     std::vector<measure::Direction> views, lights;
-    int size = 128, split = 32;
+    int size = 128, split = 31;
     std::vector<measure::Arithmetic> arithmetics = {measure::Arithmetic::Fp32};
     std::string device;
 };
@@ -59,7 +59,7 @@ Axes read_axes(Reader& reader, const Value& document) {
     const Value& run = reader.table(document, "run");
     reader.check_keys(run, "[run]", {"size", "split", "rounds", "arithmetics", "device"});
     axes.size = read_side(reader, run, "size", axes.size, {8, 2048});
-    axes.split = read_side(reader, run, "split", axes.split, {0, 2048});
+    axes.split = static_cast<int>(reader.whole(run, "split", axes.split, {0, 2048}));
     reader.whole(run, "rounds", 0, {0, 1000});
     axes.arithmetics = read_arithmetics(reader, run, axes.arithmetics);
     axes.device = reader.text(run, "device", "");

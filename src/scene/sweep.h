@@ -5,7 +5,7 @@
 //     scale = [0.04, 0.08]              # a number or several
 //     [run]
 //     size = 128                        # pixels a side; the default of sweeps
-//     split = 32                        # rays a side whose error is split by source; 0: none
+//     split = 31                        # rays a side whose error is split by source; 0: none
 //     arithmetics = ["fp32"]            # of the pixel stage: fp32, fp24, fp16
 //     [[map]]
 //     class = "bricks"                  # what the map is an example of; where missing, its name

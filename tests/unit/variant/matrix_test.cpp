@@ -193,7 +193,9 @@ std::vector<std::pair<std::string, std::string>> short_knobs(const std::string& 
     const Result<dsl::Surface> made = dsl::make_surface(catalogue(), surface);
     if (made)
         for (const dsl::KnobBase* knob : made->knobs())
-            if (knob->whole() && knob->most() >= 16) knobs.emplace_back(knob->name(), "3");
+            if (knob->whole() && knob->most() >= 16)
+                // Leaps read coarser levels, which these languages cannot; without, cells are walked.
+                knobs.emplace_back(knob->name(), knob->name().ends_with("leaps") ? "0" : "3");
     return knobs;
 }
 
