@@ -139,9 +139,8 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 std::string to_text(const Verdict& verdict) {
     std::string text;
-    int failures = 0, waived = 0, limited = 0;
+    int failures = 0, waived = 0;
     for (const Finding& finding : verdict.findings) {
-        limited += finding.kind != Finding::Kind::Fine || finding.growth() ? 0 : 1;
         failures += finding.fails() ? 1 : 0;
         waived += finding.kind == Finding::Kind::Waived ? 1 : 0;
         if (finding.kind != Finding::Kind::Fine)
