@@ -8,8 +8,8 @@
 
 #include "generator/base/nearest.h"
 #include "generator/target/target.h"
-#include "src/budget/metric.h"
 #include "src/maps/files.h"
+#include "src/measure/named_metric.h"
 #include "src/scene/reader.h"
 #include "src/variant/variant.h"
 
@@ -44,13 +44,13 @@ Selector read_selector(Reader& reader, const Value& table) {
 }
 
 // A limit on slots of a language that has none would never be looked at.
-void check_applies(Reader& reader, const Member& member, const Metric& metric,
+void check_applies(Reader& reader, const Member& member, const measure::Metric& metric,
                    const std::string& target_name) {
-    if (target_name.empty() || metric.of == Metric::Of::Both) return;
+    if (target_name.empty() || metric.of == measure::Metric::Of::Both) return;
     const Target* target = find_target(target_name);
     if (!target) return;
     const bool direct3d = profile_of(*target).has_value();
-    if (direct3d == (metric.of == Metric::Of::Direct3D9)) return;
+    if (direct3d == (metric.of == measure::Metric::Of::Direct3D9)) return;
     reader.refuse(member.position, "budget-not-applicable",
                   fmt::format("{} has no {}: {}", target_name, metric.name, metric.about));
 }
@@ -59,11 +59,11 @@ void read_rules(Reader& reader, const Value& table, std::string_view title,
                 const Selector& selector, std::vector<Rule>& rules) {
     for (const Member& member : table.members) {
         if (is_selecting(member.key) && title == "[[variant]]") continue;
-        const Metric* metric = find_metric(member.key);
+        const measure::Metric* metric = measure::find_metric(member.key);
         if (!metric) {
             reader.refuse(member.position, "budget-unknown-key",
                           unknown_name_sentence(fmt::format("metric in {}", title), member.key,
-                                                metric_names()));
+                                                measure::metric_names()));
             continue;
         }
         check_applies(reader, member, *metric, selector.target);
@@ -87,9 +87,9 @@ void read_waiver(Reader& reader, const Value& table, std::vector<Waiver>& waiver
     Waiver waiver{read_selector(reader, table), reader.text(table, "metric", ""),
                   reader.text(table, "reason", ""), reader.date(table, "until"),
                   table.position.line};
-    if (!waiver.metric.empty() && !find_metric(waiver.metric))
+    if (!waiver.metric.empty() && !measure::find_metric(waiver.metric))
         reader.refuse(table.find("metric")->value.position, "budget-unknown-key",
-                      unknown_name_sentence("metric", waiver.metric, metric_names()));
+                      unknown_name_sentence("metric", waiver.metric, measure::metric_names()));
     for (const char* key : {"reason", "until"})
         if (known &&
             (!table.find(key) || (std::string_view(key) == "reason" && waiver.reason.empty())))

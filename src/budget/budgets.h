@@ -1,9 +1,10 @@
 // A budget file says how much variants may cost and how wrong they may be.
 //
-//     scene = "scene.toml"                 # what is measured (scene/scene.h), from this file's
-//     folder baseline = "baseline.jsonl"          # what was measured last, for max_delta; may be
-//     missing [limits]                             # of every variant that has the metric missed =
-//     { max = 5, max_delta = 0.5 } [target.ps_2_0]                      # of one target ...
+//     scene = "scene.toml"                 # what is measured, from this file's folder
+//     baseline = "baseline.jsonl"          # what was measured last, for max_delta; may be missing
+//     [limits]                             # of every variant that has the metric
+//     missed = { max = 5, max_delta = 0.5 }
+//     [target.ps_2_0]                      # of one target ...
 //     arithmetic = { max = 64, max_delta = 0 }
 //     [surface.steep_parallax]             # ... of one surface, as the scene writes it ...
 //     p95 = { max = 3 }

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
-#include "src/budget/metric.h"
+#include "src/measure/named_metric.h"
 
 namespace intaglio::budget {
 namespace {
@@ -71,7 +71,7 @@ std::string changes_text(const char* title, const std::vector<const Finding*>& f
 // things that add up.
 std::string totals_text(const Verdict& verdict) {
     std::string text;
-    for (const Metric& metric : metrics()) {
+    for (const measure::Metric& metric : measure::metrics()) {
         int hurt = 0, helped = 0;
         double before = 0, after = 0;
         for (const Finding& finding : verdict.findings) {

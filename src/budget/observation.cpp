@@ -111,7 +111,8 @@ std::string Observation::name() const {
 
 bool operator<(const Observation& a, const Observation& b) { return key(a) < key(b); }
 
-Result<std::vector<Observation>> observe(const dsl::Catalogue& catalogue, const scene::Scene& scene,
+Result<std::vector<Observation>> observe(const dsl::Catalogue& catalogue,
+                                         const scene::Measurement& scene,
                                          const std::function<void(int, int)>& progress) {
     std::vector<Observation> observations;
     std::vector<std::size_t> place;  // of each row that its target holds

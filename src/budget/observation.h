@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "generator/dsl/catalogue.h"
-#include "src/scene/scene.h"
+#include "src/scene/measurement.h"
 
 namespace intaglio::budget {
 
@@ -34,7 +34,7 @@ bool operator<(const Observation& a, const Observation& b);
 
 // Emits and measures every variant of the scene; in order.  Errors: those of measure::measure.
 Result<std::vector<Observation>> observe(
-    const dsl::Catalogue& catalogue, const scene::Scene& scene,
+    const dsl::Catalogue& catalogue, const scene::Measurement& scene,
     const std::function<void(int done, int all)>& progress = {});
 
 // JSON lines, sorted, every number as in the observation; without commands.

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "generator/target/target.h"
-#include "src/budget/metric.h"
+#include "src/measure/named_metric.h"
 #include "src/variant/variant.h"
 
 namespace intaglio::budget {
@@ -28,10 +28,10 @@ std::optional<double> value_of(const Observation* observation, std::string_view 
 }
 
 // Slots are not asked of a language that has none.
-bool applies(const Metric& metric, const std::string& target_name) {
+bool applies(const measure::Metric& metric, const std::string& target_name) {
     const Target* target = find_target(target_name);
-    if (metric.of == Metric::Of::Both || !target) return true;
-    return profile_of(*target).has_value() == (metric.of == Metric::Of::Direct3D9);
+    if (metric.of == measure::Metric::Of::Both || !target) return true;
+    return profile_of(*target).has_value() == (metric.of == measure::Metric::Of::Direct3D9);
 }
 
 // The line whose spending grew most; where the baseline has none of its lines, the greatest.
@@ -55,7 +55,8 @@ std::string dearest_line(const Observation& now, const Observation* before) {
                                             : fmt::format("{}: {:g}", dearest, is);
 }
 
-Finding finding_of(const Observation& now, const Observation* before, const Metric& metric) {
+Finding finding_of(const Observation& now, const Observation* before,
+                   const measure::Metric& metric) {
     Finding finding;
     finding.surface = now.surface;
     finding.target = now.target;
@@ -73,7 +74,7 @@ Finding finding_of(const Observation& now, const Observation* before, const Metr
 
 void apply(Finding& finding, const Bound& bound, const Observation& now, const Observation* before,
            bool has_baseline) {
-    const Metric& metric = *find_metric(finding.metric);
+    const measure::Metric& metric = *measure::find_metric(finding.metric);
     const auto say = [&](Finding::Kind kind, std::string sentence) {
         finding.kind = kind;
         finding.sentence = std::move(sentence);
@@ -167,7 +168,7 @@ Verdict judge(const Budgets& budgets, const std::vector<Observation>& now,
                           fmt::format("refused: {}", observation.refusal)));
             continue;
         }
-        for (const Metric& metric : metrics()) {
+        for (const measure::Metric& metric : measure::metrics()) {
             if (!applies(metric, observation.target)) continue;
             Finding finding = finding_of(observation, before, metric);
             const auto bound = budgets.bound(observation.surface, observation.target,
@@ -211,7 +212,7 @@ Verdict difference(const std::vector<Observation>& before, const std::vector<Obs
                                              observation.refusal.empty()
                                                  ? "no longer refused"
                                                  : "refused: " + observation.refusal));
-        for (const Metric& metric : metrics()) {
+        for (const measure::Metric& metric : measure::metrics()) {
             Finding finding = finding_of(observation, old, metric);
             if (changed(finding)) verdict.findings.push_back(std::move(finding));
         }

@@ -7,7 +7,7 @@
 #include "src/budget/verdict.h"
 #include "src/cli/commands.h"
 #include "src/maps/files.h"
-#include "src/scene/scene.h"
+#include "src/scene/measurement.h"
 
 namespace intaglio::cli {
 namespace {
@@ -45,9 +45,9 @@ Status check(const dsl::Catalogue& catalogue, const CheckOptions& options) {
     if (!budgets) return budgets.error();
     // Said before minutes of measuring.
     if (const auto known = formatted({}, options.format); !known) return known.error();
-    const std::filesystem::path baseline =
-        options.baseline.empty() ? budgets->baseline.value_or(std::filesystem::path())
-                                 : std::filesystem::path(options.baseline);
+    const std::filesystem::path baseline = options.baseline.empty()
+                                               ? budgets->baseline.value_or(std::filesystem::path())
+                                               : std::filesystem::path(options.baseline);
     if (baseline.empty() && (options.update || options.patch))
         return input_error("no-baseline",
                            "the budgets name no baseline to write: add baseline = \"FILE\" or give "
@@ -55,7 +55,7 @@ Status check(const dsl::Catalogue& catalogue, const CheckOptions& options) {
                            options.budgets);
     auto before = baseline_of(baseline);
     if (!before) return before.error();
-    const auto scene = scene::read_scene_with_sources(budgets->scene);
+    const auto scene = scene::read_measurement_with_sources(budgets->scene);
     if (!scene) return scene.error();
     const auto now = budget::observe(catalogue, *scene);
     if (!now) return now.error();

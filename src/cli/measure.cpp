@@ -13,7 +13,7 @@
 #include "src/report/command.h"
 #include "src/report/picture.h"
 #include "src/report/report.h"
-#include "src/scene/scene.h"
+#include "src/scene/measurement.h"
 
 namespace intaglio::cli {
 
@@ -22,7 +22,7 @@ namespace {
 // For each map one sheet: a line per variant with its picture and its error map, at the middle view
 // of the plan.
 Status write_case_sheets(const dsl::Catalogue& catalogue, const measure::Plan& plan,
-                    const std::filesystem::path& folder) {
+                         const std::filesystem::path& folder) {
     const Result<vulkan::Device> device = vulkan::Device::create({plan.device, plan.validation});
     if (!device) return device.error();
     const measure::Shot shot{plan.views[plan.views.size() / 2], plan.lights[plan.lights.size() / 2],
@@ -64,7 +64,7 @@ Status measure_scene(const dsl::Catalogue& catalogue, const MeasureOptions& opti
     const Result<std::map<std::string, std::filesystem::path>> baked = baked_files(options.baked);
     if (!baked) return baked.error();
     if (!options.height.empty()) own_map = measure::MapFiles{options.height, {}, {}, *baked};
-    Result<scene::Scene> scene = scene::read_scene_with_sources(options.scene, own_map);
+    Result<scene::Measurement> scene = scene::read_measurement_with_sources(options.scene, own_map);
     if (!scene) return scene.error();
     measure::Plan& plan = scene->plan;
     if (options.size > 0) plan.size = options.size;

@@ -10,7 +10,7 @@
 namespace intaglio::report {
 
 // For each map of a plan the arguments of `intaglio run` that stand for it, for instance
-// {"--height", "wall.png"} (scene::Scene has them).  A map beyond the end has none.
+// {"--height", "wall.png"} (scene::Measurement has them).  A map beyond the end has none.
 using MapArguments = std::vector<std::vector<std::string>>;
 
 using measure::word_of;

@@ -1,77 +1,107 @@
-// A scene file says what to measure: maps, how deep their relief is, from where they are seen and
-// lit, and which variants draw them.
+// A scene file says what is drawn and how well it must look; from it Intaglio chooses the shaders
+// (src/plan).  docs/scene.md is the commented example, docs/scene.schema.json its schema.
 //
-//     [relief]
-//     scale = 0.08                      # depth in texture units, 0 to 1
-//     filtering = "float"               # or "native": the precision of the map's own format
-//     [views]                           # every elevation with every azimuth, in degrees
-//     elevations = [90, 60, 45, 30, 15] # above the surface; more than -90, at most 90
-//     azimuths = [20]                   # from +u towards +v
-//     [lights]
-//     elevations = [45]
-//     azimuths = [135]
-//     [run]
-//     size = 256                        # pixels a side, a power of two, 8 to 2048
-//     rounds = 5                        # of timing, 0 to 1000; 0: no times
-//     device = ""                       # part of a Vulkan device's name; empty: lavapipe
-//     [[map]]                           # a procedural one ...
-//     maker = "bricks"
-//     width = 256
-//     height = 256                      # where missing: the width
-//     seed = 1
-//     [[map]]                           # ... or files, relative to the scene's folder
-//     name = "wall"                     # where missing, made up from the maker or the file
-//     height_map = "wall/height.png"
-//     normal_map = "wall/normal.png"    # where missing: baked from the heights
-//     colour_map = "wall/colour.png"    # where missing: grey
-//     baked = { cone = "wall/cone.png" } # files of `intaglio bake` by kind, of either kind of map;
-//                                       # where missing: baked in memory
-//     [[variant]]
-//     surface = "parallax_occlusion"    # name or composition
-//     targets = ["glsl_450", "hlsl_5_0"]
-//     knobs = { taps = [8, 32] }        # lists are swept: every combination is a row
-//     loops = { march = "unroll" }      # or "loop", above the technique's schedule
-//     per_vertex = false                # move affine work to the vertex stage
-//
-// A map's class and a variant's arithmetics are for sweeps (sweep.h), and do nothing here.
-//
-// Everything but [[map]] and [[variant]] may be missing; the values above are the defaults.
+//     name = "harbour"
+//     targets = ["ps_2_0", "glsl_450"]      # of every surface that names none of its own
+//     [view]                                # from where: ranges ...
+//     elevation = [15, 90]                  # degrees above the surface's polygon, in (0, 90]
+//     azimuth = [0, 360]                    # degrees from +u towards +v
+//     distance = [1, 20]                    # world units
+//     [camera]                              # ... or a path, in world space, to derive them from
+//     path = [[0, -3, 1.7], [4, -3, 1.7]]
+//     field_of_view = 60                    # vertical, degrees
+//     pixels = 1080                         # height of the picture
+//     [[light]]                             # a direction or a range of them; or a place
+//     name = "sun"
+//     elevation = [30, 50]                  # in world space, above the xy plane
+//     azimuth = 135
+//     [tolerance]                           # of every surface that states none
+//     p95 = 1.0                             # texels; any error metric of docs/budgets.md
+//     [[surface]]
+//     name = "quay"                         # an identifier of C++
+//     height_map = "quay.png"               # or maker = "bricks"; normal_map, colour_map as well
+//     scale = 0.05
+//     features = ["shadow"]                 # shadow, depth, silhouette, fur
+//     shading = "phong"
+//     lights = ["sun"]                      # where missing: all
+//     [surface.place]                       # where missing: the xy plane at the origin, 1 x 1
+//     ...
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "generator/base/result.h"
-#include "src/measure/measure.h"
+#include "src/measure/case.h"
 
 namespace intaglio::scene {
 
-struct Scene {
-    measure::Plan plan;
-    // For each map of the plan the command line arguments that stand for it, for instance
-    // {"--height", "maps/wall.png"}: reports print them in commands that can be pasted.
-    std::vector<std::vector<std::string>> map_arguments;
+// Inclusive, in the unit of whoever holds it.  One value where least == most.
+struct Span {
+    double least = 0, most = 0;
+    bool is_one() const { return least == most; }
+    bool operator==(const Span&) const = default;
 };
 
-// Reads a scene and loads its maps.  With `own_map` the maps of the scene are left alone, and that
-// one takes their place.
-//
-// Rows come in the order of the file; within a variant the first knob changes slowest and the
-// target fastest.  Views come by elevation, then azimuth; straight down has no azimuth and comes
-// once. Surfaces, targets and knob ranges are not checked here: make_variant does.
-//
-// Codes: "scene-syntax", "scene-unknown-key", "scene-type", "scene-range", "scene-choice",
-// "scene-empty", "scene-duplicate", "scene-missing", "scene-conflict", "unknown-map",
-// "unknown-bake", each with line and column of the first mistake in the file; those of
-// maps::read_file for the scene, and of measure::load_map_set and maps::check_pairing for its maps,
-// with a note that says where the scene names them.
-Result<Scene> read_scene_with_sources(const std::filesystem::path& path,
-                                      const std::optional<measure::MapFiles>& own_map = {});
+enum class Feature { Shadow, Depth, Silhouette, Fur };
+// "shadow", "depth", "silhouette", "fur".
+std::string_view name_of(Feature feature);
 
-// The plan alone.
-Result<measure::Plan> read_scene(const std::filesystem::path& path,
-                                 const std::optional<measure::MapFiles>& own_map = {});
+// A light as one surface sees it: in the surface's tangent space.
+struct SurfaceLight {
+    std::string name;
+    Span elevation;  // degrees above the polygon; below 0 it cannot reach it
+    Span azimuth;    // degrees from +u towards +v; least may be negative, most - least <= 360
+    bool shadows = true;
+};
+
+// How wrong a surface may be: the greatest value of each metric (the error metrics of
+// docs/budgets.md) over the scene's rays.
+using Tolerance = std::map<std::string, double>;
+
+struct SceneSurface {
+    std::string name;  // an identifier: names files, C++ types and rows
+    int line = 0;      // of the file
+    measure::CaseMap map;
+    double scale = 0.08;                 // depth of the relief in texture units
+    Span elevation{15, 90};              // of the view above the polygon, degrees
+    Span azimuth{0, 360};                // of the view
+    std::optional<Span> pixels_a_texel;  // from distance and camera; empty: unknown
+    std::vector<SurfaceLight> lights;    // as the file lists them, those below the horizon too
+    std::set<Feature> features;
+    std::vector<std::string> targets;  // in the order of the file
+    Tolerance tolerance;
+    // By target ("*": every one) and metric of cost (docs/budgets.md): the most it may be.
+    std::map<std::string, std::map<std::string, double>> budget;
+    // What the file pins: of a surface's parts ("search" -> "relief", "shading" -> "phong"), of
+    // its knobs ("taps" -> "8"), of its loops; what is not pinned is chosen.
+    std::map<std::string, std::string> parts;
+    std::vector<std::pair<std::string, std::string>> knobs;
+    std::map<std::string, ir::LoopForm> loop_forms;
+    // Uniforms whose value the file fixes ("ambient" -> {0.1, 0.1, 0.1}), to be folded; `scale` is
+    // always fixed, a light's direction where it is one and the surface does not move.
+    std::map<std::string, std::vector<float>> uniforms;
+};
+
+struct Scene {
+    std::string name;
+    std::filesystem::path file;
+    std::vector<SceneSurface> surfaces;
+    std::vector<std::filesystem::path> inputs;  // every file that was read, the scene first
+    int size = 64;                              // pixels a side of the pictures that are measured
+    double read_weight = 4;  // operations that one texture read counts as, in the cost of a plan
+};
+
+// Codes: those of read_measurement; "scene-name" for a name that is no identifier or that two
+// surfaces have; "unknown-feature", "unknown-light", "unknown-metric", "unknown-target", each with
+// the nearest, line and column.
+Result<Scene> read_scene(const std::filesystem::path& path);
+
+// Whether a file is a scene (has [[surface]]) or a measurement.
+Result<bool> is_scene(const std::filesystem::path& path);
 
 }  // namespace intaglio::scene

@@ -24,7 +24,7 @@ namespace intaglio::scene {
 
 // Reads a sweep and loads its maps.  Cases come by scale, map, variant (as in scenes), arithmetic,
 // view and light.  The commands that results hold take files as the sweep names them, so they are
-// for its folder.  Codes as of read_scene; "unknown-arithmetic".
+// for its folder.  Codes as of read_measurement; "unknown-arithmetic".
 Result<measure::SweepPlan> read_sweep(const std::filesystem::path& path);
 
 }  // namespace intaglio::scene

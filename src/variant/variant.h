@@ -11,6 +11,7 @@
 
 #include "generator/dsl/catalogue.h"
 #include "generator/dsl/passes.h"
+#include "generator/passes/assume.h"
 #include "generator/target/d3d9/resources.h"
 #include "generator/target/target.h"
 #include "src/check/cost.h"
@@ -27,8 +28,9 @@ struct VariantRequest {
     bool per_vertex = false;  // affine functions of interpolants move to the vertex stage
     bool count_reads =
         false;  // instrumented: a second colour target `reads` says how many textures a pixel read
-    dsl::Split split = {};  // see dsl::parse_split
-    int pass = 0;           // which pass of the split, from 1; 0 only where there is one
+    dsl::Split split = {};     // see dsl::parse_split
+    int pass = 0;              // which pass of the split, from 1; 0 only where there is one
+    passes::Known known = {};  // what is folded into the program before its target sees it
 };
 
 struct Variant {

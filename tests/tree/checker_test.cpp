@@ -70,8 +70,8 @@ INSTANTIATE_TEST_SUITE_P(
         Arrow{"src/check/cost.cpp", "#include \"generator/ir/module.h\""},
         Arrow{"src/vulkan/program.cpp", "#include \"src/variant/variant.h\""},
         Arrow{"src/variant/variant.cpp", "#include \"src/vulkan/device.h\""},
-        Arrow{"src/measure/hits.cpp", "#include \"src/scene/scene.h\""},
-        Arrow{"src/scene/scene.cpp", "#include \"src/cli/main.h\""},
+        Arrow{"src/measure/hits.cpp", "#include \"src/scene/measurement.h\""},
+        Arrow{"src/scene/measurement.cpp", "#include \"src/cli/main.h\""},
         // In other spellings.
         Arrow{"generator/base/text.h", "  #  include   \"generator/ir/module.h\"  // why not"},
         Arrow{"generator/ir/print.cpp", "#include \"print.h\""},

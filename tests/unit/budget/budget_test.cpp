@@ -15,8 +15,8 @@
 #include <pugixml.hpp>
 
 #include "src/budget/formats.h"
-#include "src/budget/metric.h"
 #include "src/budget/verdict.h"
+#include "src/measure/named_metric.h"
 
 namespace intaglio::budget {
 namespace {

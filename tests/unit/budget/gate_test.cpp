@@ -42,7 +42,7 @@ dsl::Catalogue with_parallax() {
 }
 
 std::vector<Observation> observed(const dsl::Catalogue& catalogue) {
-    scene::Scene scene;
+    scene::Measurement scene;
     for (const char* target : {"ps_2_0", "glsl_450"})
         scene.plan.rows.push_back({"parallax,output=displaced", target, {}, {}});
     scene.plan.maps.push_back(*measure::make_map_set("cobbles", 32, 32, scene.plan.scale));

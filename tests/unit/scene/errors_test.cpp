@@ -116,7 +116,7 @@ class SceneMistakes : public ::testing::TestWithParam<Mistake> {};
 TEST_P(SceneMistakes, HaveASentenceWithItsPlace) {
     const Mistake& mistake = GetParam();
     const SceneFile file(mistake.text);
-    const Result<measure::Plan> plan = read_scene(file.path());
+    const Result<measure::Plan> plan = read_measurement(file.path());
     ASSERT_FALSE(plan.ok());
     const Diagnostic& error = plan.error();
     EXPECT_EQ(error.code, mistake.code) << to_string(error);
@@ -136,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(Rules, SceneMistakes, ::testing::ValuesIn(mistakes),
 TEST(SceneErrors, TheFirstMistakeInTheFileIsTold) {
     const SceneFile file("[[map]]\nmaker = 'brick'\n[run]\nsize = 7\n[relief]\nscale = 2\n" +
                          one_variant);
-    const Result<measure::Plan> plan = read_scene(file.path());
+    const Result<measure::Plan> plan = read_measurement(file.path());
     ASSERT_FALSE(plan.ok());
     EXPECT_EQ(plan.error().line, 2) << to_string(plan.error());
 }
@@ -148,7 +148,7 @@ TEST(SceneErrors, SweepsThatExplodeAreRefusedWithoutBeingBuilt) {
     const SceneFile file(one_map + one_variant + "knobs = { a = " + list + ", b = " + list +
                          ", c = " + list + ", d = " + list + ", e = " + list + ", f = " + list +
                          " }");
-    const Result<measure::Plan> plan = read_scene(file.path());
+    const Result<measure::Plan> plan = read_measurement(file.path());
     ASSERT_FALSE(plan.ok());
     EXPECT_EQ(plan.error().code, "scene-range");
     EXPECT_THAT(plan.error().message, ::testing::HasSubstr("combinations"));
@@ -156,7 +156,7 @@ TEST(SceneErrors, SweepsThatExplodeAreRefusedWithoutBeingBuilt) {
 
 TEST(SceneErrors, AMissingMapNamesItsFileAndTheSceneThatWantsIt) {
     const SceneFile file("[[map]]\nheight_map = 'absent.png'\n" + one_variant);
-    const Result<measure::Plan> plan = read_scene(file.path());
+    const Result<measure::Plan> plan = read_measurement(file.path());
     ASSERT_FALSE(plan.ok());
     EXPECT_EQ(plan.error().code, "file-missing");
     EXPECT_EQ(plan.error().file, (file.folder() / "absent.png").string());
@@ -165,14 +165,14 @@ TEST(SceneErrors, AMissingMapNamesItsFileAndTheSceneThatWantsIt) {
 }
 
 TEST(SceneErrors, AMissingSceneIsAMissingFile) {
-    const Result<measure::Plan> plan = read_scene("/nowhere/scene.toml");
+    const Result<measure::Plan> plan = read_measurement("/nowhere/scene.toml");
     ASSERT_FALSE(plan.ok());
     EXPECT_EQ(plan.error().code, "file-missing");
 }
 
 TEST(SceneErrors, BytesThatAreNoTextAreRefused) {
     const SceneFile file(std::string("\xff\xfe\0\x01", 4));
-    const Result<measure::Plan> plan = read_scene(file.path());
+    const Result<measure::Plan> plan = read_measurement(file.path());
     ASSERT_FALSE(plan.ok());
     EXPECT_EQ(plan.error().code, "scene-syntax");
 }

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "src/scene/scene.h"
+#include "src/scene/measurement.h"
 
 namespace intaglio::scene {
 

@@ -15,7 +15,7 @@ using ::testing::Pair;
 
 measure::Plan plan_of(const std::string& text) {
     const SceneFile file(text);
-    Result<measure::Plan> plan = read_scene(file.path());
+    Result<measure::Plan> plan = read_measurement(file.path());
     if (plan.ok()) return std::move(*plan);
     ADD_FAILURE() << to_string(plan.error());
     return {};
@@ -34,7 +34,7 @@ std::vector<std::string> rows_of(const measure::Plan& plan) {
 
 TEST(Scene, TheExampleOfSpeedComparesWithRelaxedCones) {
     const auto file = std::filesystem::path(INTAGLIO_EXAMPLE_MAPS) / "../03_speed/scene.toml";
-    const Result<measure::Plan> plan = read_scene(file);
+    const Result<measure::Plan> plan = read_measurement(file);
     ASSERT_TRUE(plan.ok()) << to_string(plan.error());
     EXPECT_EQ(plan->maps.size(), 3u);
     const std::vector<std::string> rows = rows_of(*plan);
@@ -114,7 +114,7 @@ TEST(Scene, ProceduralMapsHaveTheirSizeSeedAndName) {
         "'other'\nmaker = 'bricks'\n"
         "width = 8\n" +
         one_variant);
-    const Result<Scene> scene = read_scene_with_sources(file.path());
+    const Result<Measurement> scene = read_measurement_with_sources(file.path());
     ASSERT_TRUE(scene.ok()) << to_string(scene.error());
     ASSERT_EQ(scene->plan.maps.size(), 2u);
     const Result<measure::MapSet> expected =
@@ -139,7 +139,7 @@ TEST(Scene, FilesAreFoundBesideTheScene) {
     ASSERT_TRUE(maps::write_png(file.folder() / "maps/h.png", set.heights).ok());
     ASSERT_TRUE(maps::write_png(file.folder() / "maps/n.png", set.normal_height).ok());
     ASSERT_TRUE(maps::write_png(file.folder() / "maps/c.png", set.colour).ok());
-    const Result<Scene> scene = read_scene_with_sources(file.path());
+    const Result<Measurement> scene = read_measurement_with_sources(file.path());
     ASSERT_TRUE(scene.ok()) << to_string(scene.error());
     ASSERT_EQ(scene->plan.maps.size(), 1u);
     EXPECT_EQ(scene->plan.maps[0].name, "wall");
@@ -156,15 +156,15 @@ TEST(Scene, OnesOwnMapTakesThePlaceOfAllAndTheOthersAreNotRead) {
     const SceneFile file("[[map]]\nheight_map = 'absent.png'\n" + one_map + one_variant);
     const std::filesystem::path own =
         std::filesystem::path(INTAGLIO_EXAMPLE_MAPS) / "pipes/normal_height.png";
-    const Result<Scene> scene =
-        read_scene_with_sources(file.path(), measure::MapFiles{own, {}, {}});
+    const Result<Measurement> scene =
+        read_measurement_with_sources(file.path(), measure::MapFiles{own, {}, {}});
     ASSERT_TRUE(scene.ok()) << to_string(scene.error());
     ASSERT_EQ(scene->plan.maps.size(), 1u);
     EXPECT_EQ(scene->plan.maps[0].name, "pipes");
     EXPECT_THAT(scene->map_arguments, ElementsAre(ElementsAre("--height", own.string())));
 
     const Result<measure::Plan> absent =
-        read_scene(file.path(), measure::MapFiles{"absent.png", {}, {}});
+        read_measurement(file.path(), measure::MapFiles{"absent.png", {}, {}});
     ASSERT_FALSE(absent.ok());
     EXPECT_EQ(absent.error().file, "absent.png");
 }
@@ -173,7 +173,7 @@ TEST(Scene, ItsOwnMapNeedsNoMapInTheScene) {
     const SceneFile file(one_variant);
     const std::filesystem::path own =
         std::filesystem::path(INTAGLIO_EXAMPLE_MAPS) / "door/normal_height.png";
-    EXPECT_TRUE(read_scene(file.path(), measure::MapFiles{own, {}, {}}).ok());
+    EXPECT_TRUE(read_measurement(file.path(), measure::MapFiles{own, {}, {}}).ok());
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // From the tree of a scene file to a plan: first every word is checked, then the maps are loaded.
-#include "src/scene/scene.h"
+#include "src/scene/measurement.h"
 
 #include <fmt/format.h>
 
@@ -28,7 +28,8 @@ void read_run(Reader& reader, const Value& document, measure::Plan& plan) {
     plan.device = reader.text(table, "device", plan.device);
 }
 
-Status load_maps(const std::vector<MapEntry>& entries, const std::string& file, Scene& scene) {
+Status load_maps(const std::vector<MapEntry>& entries, const std::string& file,
+                 Measurement& scene) {
     for (const MapEntry& entry : entries) {
         Result<measure::MapSet> set = load_map(entry, scene.plan.scale);
         if (!set) return placed(set.error(), file, entry.position);
@@ -46,15 +47,15 @@ Status load_maps(const std::vector<MapEntry>& entries, const std::string& file, 
 
 }  // namespace
 
-Result<Scene> read_scene_with_sources(const std::filesystem::path& path,
-                                      const std::optional<measure::MapFiles>& own_map) {
+Result<Measurement> read_measurement_with_sources(const std::filesystem::path& path,
+                                                  const std::optional<measure::MapFiles>& own_map) {
     const Result<Value> document = read_document(path);
     if (!document) return document.error();
     const std::string file = path.string();
     Reader reader(file);
     reader.check_keys(*document, "the scene",
                       {"relief", "views", "lights", "run", "map", "variant"});
-    Scene scene;
+    Measurement scene;
     measure::Plan& plan = scene.plan;
     read_relief(reader, *document, plan);
     plan.views = read_directions(reader, *document, "views", {90, 60, 45, 30, 15}, {20});
@@ -80,9 +81,9 @@ Result<Scene> read_scene_with_sources(const std::filesystem::path& path,
     return scene;
 }
 
-Result<measure::Plan> read_scene(const std::filesystem::path& path,
-                                 const std::optional<measure::MapFiles>& own_map) {
-    Result<Scene> scene = read_scene_with_sources(path, own_map);
+Result<measure::Plan> read_measurement(const std::filesystem::path& path,
+                                       const std::optional<measure::MapFiles>& own_map) {
+    Result<Measurement> scene = read_measurement_with_sources(path, own_map);
     if (!scene) return scene.error();
     return std::move(scene->plan);
 }

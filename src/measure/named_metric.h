@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace intaglio::budget {
+namespace intaglio::measure {
 
 struct Metric {
     std::string_view name;  // as budgets.toml writes it
@@ -25,4 +25,4 @@ std::span<const Metric> metrics();
 const Metric* find_metric(std::string_view name);
 std::vector<std::string> metric_names();
 
-}  // namespace intaglio::budget
+}  // namespace intaglio::measure

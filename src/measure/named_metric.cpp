@@ -1,7 +1,7 @@
 // The table.
-#include "src/budget/metric.h"
+#include "src/measure/named_metric.h"
 
-namespace intaglio::budget {
+namespace intaglio::measure {
 namespace {
 
 using Of = Metric::Of;
@@ -56,4 +56,4 @@ std::vector<std::string> metric_names() {
     return names;
 }
 
-}  // namespace intaglio::budget
+}  // namespace intaglio::measure
