@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/cli/commands.h"
+#include "src/measure/variant_json.h"
 
 namespace intaglio::cli {
 namespace {
@@ -67,13 +68,9 @@ std::string chip_text(const measure::Chip& chip) {
 }
 
 ordered_json slots_json(const d3d9::Resources& used) {
-    return {{"made_by", slots_maker},
-            {"arithmetic", used.arithmetic},
-            {"texture", used.texture},
-            {"temps", used.temps},
-            {"constants", used.constants},
-            {"samplers", used.samplers},
-            {"dependent_level", used.dependent_level}};
+    ordered_json json = {{"made_by", slots_maker}};
+    json.update(measure::json_of(used));
+    return json;
 }
 
 ordered_json chip_json(const std::optional<measure::ChipCost>& cost) {

@@ -1,15 +1,11 @@
 // `intaglio report`.
-#include <unistd.h>
-
-#include <array>
 #include <charconv>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "src/cli/commands.h"
+#include "src/cli/gnuplot.h"
 #include "src/maps/files.h"
 #include "src/report/command.h"
 #include "src/report/front.h"
@@ -106,30 +102,6 @@ Status write_page(report::PageData& page, const dsl::Catalogue& catalogue,
         command += " --chip " + report::shell_quoted(chip);
     page.json["commands"] = {command + " -o " + report::shell_quoted(options.output)};
     return write_product(options.output, report::html(page, live), false);
-}
-
-// What gnuplot makes of a script.
-Result<std::string> plotted(const std::string& script) {
-    std::array<char, 32> name{"/tmp/intaglio-plot-XXXXXX"};
-    const int file = mkstemp(name.data());
-    if (file < 0) return input_error("file-unwritable", "no temporary file can be made in /tmp");
-    const std::string path = name.data();
-    const auto size = static_cast<ssize_t>(script.size());
-    const bool written = write(file, script.data(), script.size()) == size;
-    close(file);
-    std::string svg;
-    int code = -1;
-    if (FILE* pipe = written ? popen(("gnuplot " + path).c_str(), "r") : nullptr) {
-        std::array<char, 65536> block;
-        for (std::size_t n; (n = std::fread(block.data(), 1, block.size(), pipe)) > 0;)
-            svg.append(block.data(), n);
-        code = pclose(pipe);
-    }
-    std::filesystem::remove(path);
-    if (code != 0 || svg.empty())
-        return input_error("no-gnuplot",
-                           "gnuplot did not draw the plots; on Debian it is in gnuplot-nox");
-    return svg;
 }
 
 Status write_document(const report::PageData& page, const std::string& file) {

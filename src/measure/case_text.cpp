@@ -9,40 +9,12 @@
 #include "generator/ir/print.h"
 #include "src/measure/command.h"
 #include "src/measure/hash.h"
+#include "src/measure/variant_json.h"
 
 namespace intaglio::measure {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string_view name_of(Filtering filtering) {
-    return filtering == Filtering::Float ? "float" : "native";
-}
-
-Json json_of(Direction direction) {
-    return {{"elevation", direction.elevation}, {"azimuth", direction.azimuth}};
-}
-
-Json json_of(const check::SpirvCost& cost) {
-    return {{"alu", cost.alu},
-            {"texture", cost.texture},
-            {"branch", cost.branch},
-            {"memory", cost.memory},
-            {"total", cost.total},
-            {"shortest_path", cost.shortest_path},
-            {"longest_path", cost.longest_path}};
-}
-
-Json json_of(const std::optional<d3d9::Resources>& slots) {
-    if (!slots) return {};
-    return {{"arithmetic", slots->arithmetic},
-            {"texture", slots->texture},
-            {"total", slots->total},
-            {"temps", slots->temps},
-            {"constants", slots->constants},
-            {"samplers", slots->samplers},
-            {"dependent_level", slots->dependent_level}};
-}
 
 template <typename T>
 Json json_of(const std::optional<T>& value) {
@@ -51,8 +23,8 @@ Json json_of(const std::optional<T>& value) {
 
 Json cost_of(const CaseMetrics& metrics) {
     const Executed& executed = metrics.executed;
-    return {{"d3d9", json_of(metrics.slots)},
-            {"spirv", json_of(metrics.spirv)},
+    return {{"d3d9", measure::json_of(metrics.slots)},
+            {"spirv", measure::json_of(metrics.spirv)},
             {"reads_mean", executed.reads_mean},
             {"reads_max", executed.reads_max},
             {"instructions_mean", json_of(executed.instructions_mean)},
@@ -142,31 +114,24 @@ void add_metrics(Json& line, const Case& what, const CaseMap& map, const CaseMet
 
 // The variant, view, light and so on: as a line says them.
 Json inputs_of(const Case& what, const CaseMap& map, const MeasuredOn& on) {
-    const VariantRequest& request = what.request;
-    Json knobs = Json::object(), loops = Json::object();
-    for (const auto& [knob, value] : request.knobs) knobs[knob] = value;
-    for (const auto& [loop, form] : request.loop_forms) loops[loop] = word_of(form);
-    return {{"surface", request.surface},
-            {"target", request.target},
-            {"knobs", knobs},
-            {"loops", loops},
-            {"per_vertex", request.per_vertex},
-            {"arithmetic", name_of(what.arithmetic)},
-            {"map",
-             {{"name", map.set.name},
-              {"class", map.map_class},
-              {"width", map.set.heights.width},
-              {"height", map.set.heights.height},
-              {"bits", map.set.heights.bits},
-              {"hash", map.hash},
-              {"arguments", map.arguments}}},
-            {"view", json_of(what.view)},
-            {"light", json_of(what.light)},
-            {"scale", what.scale},
-            {"size", what.size},
-            {"split_size", what.split_size},
-            {"filtering", name_of(what.filtering)},
-            {"device", on.device}};
+    Json inputs = measure::json_of(what.request);
+    inputs.update({{"arithmetic", name_of(what.arithmetic)},
+                   {"map",
+                    {{"name", map.set.name},
+                     {"class", map.map_class},
+                     {"width", map.set.heights.width},
+                     {"height", map.set.heights.height},
+                     {"bits", map.set.heights.bits},
+                     {"hash", map.hash},
+                     {"arguments", map.arguments}}},
+                   {"view", measure::json_of(what.view)},
+                   {"light", measure::json_of(what.light)},
+                   {"scale", what.scale},
+                   {"size", what.size},
+                   {"split_size", what.split_size},
+                   {"filtering", name_of(what.filtering)},
+                   {"device", on.device}});
+    return inputs;
 }
 
 }  // namespace

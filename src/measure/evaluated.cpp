@@ -54,22 +54,12 @@ Status EvaluatedQuad::add_textures(const Variant& variant, const Textures& textu
     for (const ir::Module* module : {&program_.vertex, &program_.pixel})
         for (const ir::Sampler& sampler : module->samplers) {
             const std::string& name = sampler.name;
-            const vulkan::Texture* source = name == "height_map"   ? &textures.height
-                                            : name == "normal_map" ? &textures.normal
-                                            : name == "colour_map" ? &textures.colour
-                                                                   : nullptr;
-            const bool one_level = source != nullptr && reading.one_level.contains(name);
-            if (source == nullptr) {
-                const auto settings = reading.baked.find(name);
-                const Result<const vulkan::Texture*> baked = textures.baked->texture(
-                    name, settings == reading.baked.end() ? "" : settings->second);
-                if (!baked) return baked.error();
-                source = *baked;
-            }
-            if (source == nullptr)
+            Result<std::optional<ir::Texture>> texture = evaluator_texture(textures, reading, name);
+            if (!texture) return texture.error();
+            if (!*texture)
                 return input_error("missing-texture", fmt::format("there is no map '{}'", name));
             std::array<ir::Texture, 2>& both = textures_[name];
-            both.fill(evaluator_texture(*source, one_level, reading.nearest.contains(name)));
+            both.fill(std::move(**texture));
             both[0].weights = ir::Texture::Weights::Exact;
             both[1].weights = ir::Texture::Weights::EightBit;
         }

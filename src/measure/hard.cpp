@@ -35,18 +35,10 @@ struct HardMap {
     Result<const ir::Texture*> texture(const std::string& name) {
         const auto known = evaluated.find(name);
         if (known != evaluated.end()) return &known->second;
-        const vulkan::Texture* source = name == "height_map"   ? &textures.height
-                                        : name == "normal_map" ? &textures.normal
-                                        : name == "colour_map" ? &textures.colour
-                                                               : nullptr;
-        if (source == nullptr) {
-            const Result<const vulkan::Texture*> baked = textures.baked->texture(name);
-            if (!baked) return baked.error();
-            source = *baked;
-        }
-        if (source == nullptr)
-            return internal_error("hard-texture", fmt::format("no texture {}", name));
-        return &evaluated.emplace(name, evaluator_texture(*source)).first->second;
+        Result<std::optional<ir::Texture>> texture = evaluator_texture(textures, {}, name);
+        if (!texture) return texture.error();
+        if (!*texture) return internal_error("hard-texture", fmt::format("no texture {}", name));
+        return &evaluated.emplace(name, std::move(**texture)).first->second;
     }
 };
 

@@ -27,23 +27,10 @@ Status InterpretedQuad::add_textures(const Variant& variant, const Textures& tex
     const TextureReading reading = reading_of(variant);
     for (const d3d9::Shader* shader : {&vertex_, &pixel_})
         for (const std::string& name : textures_in(*shader)) {
-            const vulkan::Texture* source = name == "height_map"   ? &textures.height
-                                            : name == "normal_map" ? &textures.normal
-                                            : name == "colour_map" ? &textures.colour
-                                                                   : nullptr;
-            // Baked maps keep their levels, whatever the language: prepare_quad does the same.
-            const bool one_level = source != nullptr && reading.one_level.contains(name);
-            if (source == nullptr) {
-                const auto settings = reading.baked.find(name);
-                const Result<const vulkan::Texture*> baked = textures.baked->texture(
-                    name, settings == reading.baked.end() ? "" : settings->second);
-                if (!baked) return baked.error();
-                source = *baked;
-            }
+            Result<std::optional<ir::Texture>> texture = evaluator_texture(textures, reading, name);
+            if (!texture) return texture.error();
             // A name that nobody has stays missing: environment_of says so.
-            if (source != nullptr)
-                textures_.try_emplace(
-                    name, evaluator_texture(*source, one_level, reading.nearest.contains(name)));
+            if (*texture) textures_.try_emplace(name, std::move(**texture));
         }
     return Done{};
 }

@@ -62,6 +62,10 @@ Result<maps::Image> read_normals(const std::filesystem::path& path, const MapSet
 
 }  // namespace
 
+std::string_view name_of(Filtering filtering) {
+    return filtering == Filtering::Float ? "float" : "native";
+}
+
 std::vector<float> rgba_of(const maps::Image& image) {
     std::vector<float> texels;
     texels.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *

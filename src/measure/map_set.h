@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "generator/base/result.h"
 #include "src/maps/image.h"
@@ -61,6 +62,8 @@ enum class Filtering {
     Float,   // texels as float32, filtered exactly: what is left is the technique's own error
     Native,  // as the file's precision: RGBA8 is filtered with 8-bit weights on lavapipe
 };
+// "float" or "native".
+std::string_view name_of(Filtering filtering);
 
 // Four floats a texel; missing colour channels repeat the first, missing alpha is 1.
 std::vector<float> rgba_of(const maps::Image& image);

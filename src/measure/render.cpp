@@ -4,6 +4,7 @@
 #include <map>
 
 #include "src/check/reflect.h"
+#include "src/variant/variant.h"
 
 namespace intaglio::measure {
 namespace {
@@ -74,6 +75,24 @@ ir::Texture evaluator_texture(const vulkan::Texture& from, bool one_level, bool 
         if (one_level) break;
     }
     return made;
+}
+
+Result<std::optional<ir::Texture>> evaluator_texture(const Textures& textures,
+                                                     const TextureReading& reading,
+                                                     const std::string& name) {
+    const bool nearest = reading.nearest.contains(name);
+    for (const auto& [own, texture] :
+         {std::pair{"height_map", &textures.height}, std::pair{"normal_map", &textures.normal},
+          std::pair{"colour_map", &textures.colour}})
+        if (name == own)
+            return std::optional(
+                evaluator_texture(*texture, reading.one_level.contains(name), nearest));
+    const auto settings = reading.baked.find(name);
+    const Result<const vulkan::Texture*> baked =
+        textures.baked->texture(name, settings == reading.baked.end() ? "" : settings->second);
+    if (!baked) return baked.error();
+    if (*baked == nullptr) return std::optional<ir::Texture>();
+    return std::optional(evaluator_texture(**baked, false, nearest));
 }
 
 Result<vulkan::Program> prepare_quad(const vulkan::Device& device, const check::Program& shaders,

@@ -2,6 +2,8 @@
 // and measurements.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "generator/ir/texture.h"
@@ -11,6 +13,10 @@
 #include "src/measure/view.h"
 #include "src/vulkan/camera.h"
 #include "src/vulkan/program.h"
+
+namespace intaglio {
+struct TextureReading;
+}
 
 namespace intaglio::measure {
 
@@ -31,6 +37,11 @@ struct Textures {
 // RGBA8 filtered by steps of 1/256; only the first level, or nearest, where the variant says so.
 ir::Texture evaluator_texture(const vulkan::Texture& from, bool one_level = false,
                               bool nearest = false);
+// What a sampler of that name reads: the set's map or a baked one, as `reading` says; only the
+// set's own maps lose their levels.  Empty: nobody has such a map.  Errors: those of the bake.
+Result<std::optional<ir::Texture>> evaluator_texture(const Textures& textures,
+                                                     const TextureReading& reading,
+                                                     const std::string& name);
 
 // What one pass of a split surface needs beside the maps.
 struct PassLink {

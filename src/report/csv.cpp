@@ -83,10 +83,7 @@ constexpr Column columns[] = {
      }},
     {"scale", [](const Record& r) { return text_of(r.plan.scale); }},
     {"size", [](const Record& r) { return text_of(r.plan.size); }},
-    {"filtering",
-     [](const Record& r) -> std::string {
-         return r.plan.filtering == measure::Filtering::Float ? "float" : "native";
-     }},
+    {"filtering", [](const Record& r) { return std::string(name_of(r.plan.filtering)); }},
     {"spirv_alu", [](const Record& r) { return text_of(r.cost().alu); }},
     {"spirv_texture", [](const Record& r) { return text_of(r.cost().texture); }},
     {"spirv_branch", [](const Record& r) { return text_of(r.cost().branch); }},

@@ -10,6 +10,7 @@
 #include "src/measure/hits.h"
 #include "src/measure/render.h"
 #include "src/measure/shot.h"
+#include "src/measure/variant_json.h"
 #include "src/report/base64.h"
 #include "src/report/picture.h"
 
@@ -158,10 +159,6 @@ std::vector<std::size_t> chosen_variants(const PageData& page) {
         chosen.push_back(own[(own.size() - 1) / 2]);
     }
     return chosen;
-}
-
-Json json_of(Direction direction) {
-    return {{"elevation", direction.elevation}, {"azimuth", direction.azimuth}};
 }
 
 Direction direction_in(const Json& json) { return {json.at("elevation"), json.at("azimuth")}; }

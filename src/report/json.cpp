@@ -1,6 +1,7 @@
 // The JSON form.
 #include <nlohmann/json.hpp>
 
+#include "src/measure/variant_json.h"
 #include "src/report/report.h"
 
 namespace intaglio::report {
@@ -11,20 +12,13 @@ using measure::CaseResult;
 using measure::Measurement;
 using measure::Plan;
 
-Json direction_of(measure::Direction direction) {
-    return {{"elevation", direction.elevation}, {"azimuth", direction.azimuth}};
-}
-
 Json plan_of(const Plan& plan) {
     Json views = Json::array(), lights = Json::array();
-    for (measure::Direction view : plan.views) views.push_back(direction_of(view));
-    for (measure::Direction light : plan.lights) lights.push_back(direction_of(light));
-    return {{"scale", plan.scale},
-            {"size", plan.size},
-            {"rounds", plan.rounds},
-            {"filtering", plan.filtering == measure::Filtering::Float ? "float" : "native"},
-            {"device", plan.device},
-            {"views", views},
+    for (measure::Direction view : plan.views) views.push_back(json_of(view));
+    for (measure::Direction light : plan.lights) lights.push_back(json_of(light));
+    return {{"scale", plan.scale},   {"size", plan.size},
+            {"rounds", plan.rounds}, {"filtering", name_of(plan.filtering)},
+            {"device", plan.device}, {"views", views},
             {"lights", lights}};
 }
 
@@ -38,36 +32,13 @@ Json maps_of(const Plan& plan) {
     return maps;
 }
 
-// Of a Direct3D 9 row, else null.
-Json slots_of(const std::optional<d3d9::Resources>& slots) {
-    if (!slots) return {};
-    return {{"arithmetic", slots->arithmetic},
-            {"texture", slots->texture},
-            {"temps", slots->temps},
-            {"constants", slots->constants},
-            {"dependent_level", slots->dependent_level}};
-}
-
 Json row_of(const VariantRequest& request, const check::SpirvCost& cost,
             const std::optional<d3d9::Resources>& slots, const std::vector<std::string>& settings) {
-    Json knobs = Json::object(), loops = Json::object();
-    for (const auto& [knob, value] : request.knobs) knobs[knob] = value;
-    for (const auto& [loop, form] : request.loop_forms) loops[loop] = word_of(form);
-    return {{"surface", request.surface},
-            {"target", request.target},
-            {"knobs", knobs},
-            {"loops", loops},
-            {"per_vertex", request.per_vertex},
-            {"settings", settings},
-            {"spirv",
-             {{"alu", cost.alu},
-              {"texture", cost.texture},
-              {"branch", cost.branch},
-              {"memory", cost.memory},
-              {"total", cost.total},
-              {"shortest_path", cost.shortest_path},
-              {"longest_path", cost.longest_path}}},
-            {"d3d9", slots_of(slots)}};
+    Json row = measure::json_of(request);
+    row.update({{"settings", settings},
+                {"spirv", measure::json_of(cost)},
+                {"d3d9", measure::json_of(slots)}});
+    return row;
 }
 
 Json hits_of(const measure::HitStatistics& hits, int size) {
@@ -105,8 +76,8 @@ Json case_of(const Plan& plan, const CaseResult& result, const MapArguments& map
     const bool timed = result.nanoseconds > 0;
     const std::string command = run_command(plan, result, map_arguments);
     return {{"map", plan.maps[static_cast<std::size_t>(result.map)].name},
-            {"view", direction_of(result.view)},
-            {"light", direction_of(result.light)},
+            {"view", json_of(result.view)},
+            {"light", json_of(result.light)},
             {"row", result.row},
             {"reads", {{"mean", result.reads_mean}, {"max", result.reads_max}}},
             {"time",

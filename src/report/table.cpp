@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -310,14 +310,13 @@ std::string largest_ratio(const Measurement& measurement, int map, std::size_t r
 
 std::string overviews(const Plan& plan, const Measurement& measurement) {
     const bool merged = most_merged(plan) > 1;
-    std::string text =
-        overview(plan, measurement,
-                 merged ? "largest p95 over azimuths and lights, in texels,"
-                        : "p95 hit error in texels",
-                 [&](int map, std::size_t row, double elevation) -> std::string {
-                     const auto p95 = largest_p95(measurement, map, row, elevation);
-                     return p95 ? texels(*p95) : "-";
-                 });
+    std::string text = overview(
+        plan, measurement,
+        merged ? "largest p95 over azimuths and lights, in texels," : "p95 hit error in texels",
+        [&](int map, std::size_t row, double elevation) -> std::string {
+            const auto p95 = largest_p95(measurement, map, row, elevation);
+            return p95 ? texels(*p95) : "-";
+        });
     if (plan.rounds > 0)
         text += overview(plan, measurement,
                          merged ? "largest time ratio to row 1 (quartiles) over azimuths and lights"
@@ -370,8 +369,7 @@ std::string legend(const Plan& plan, const Measurement& measurement) {
         "shad%        pixels within a texel of the exact hit whose shadow is not the exact one, of "
         "all pixels\n"
         "NaN          pixels with NaN or Inf in the hit / in the shaded colour\n",
-        plan.size, plan.size, plan.scale,
-        plan.filtering == measure::Filtering::Float ? "float" : "native");
+        plan.size, plan.size, plan.scale, name_of(plan.filtering));
     return text;
 }
 

@@ -1,0 +1,48 @@
+// Members in the order in which a person reads them.
+#include "src/measure/variant_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "src/measure/command.h"
+
+namespace intaglio::measure {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const VariantRequest& request) {
+    Json knobs = Json::object(), loops = Json::object();
+    for (const auto& [knob, value] : request.knobs) knobs[knob] = value;
+    for (const auto& [loop, form] : request.loop_forms) loops[loop] = word_of(form);
+    return {{"surface", request.surface},
+            {"target", request.target},
+            {"knobs", knobs},
+            {"loops", loops},
+            {"per_vertex", request.per_vertex}};
+}
+
+Json json_of(Direction direction) {
+    return {{"elevation", direction.elevation}, {"azimuth", direction.azimuth}};
+}
+
+Json json_of(const check::SpirvCost& cost) {
+    return {{"alu", cost.alu},
+            {"texture", cost.texture},
+            {"branch", cost.branch},
+            {"memory", cost.memory},
+            {"total", cost.total},
+            {"shortest_path", cost.shortest_path},
+            {"longest_path", cost.longest_path}};
+}
+
+Json json_of(const std::optional<d3d9::Resources>& slots) {
+    if (!slots) return {};
+    return {{"arithmetic", slots->arithmetic},
+            {"texture", slots->texture},
+            {"total", slots->total},
+            {"temps", slots->temps},
+            {"constants", slots->constants},
+            {"samplers", slots->samplers},
+            {"dependent_level", slots->dependent_level}};
+}
+
+}  // namespace intaglio::measure
