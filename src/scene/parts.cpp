@@ -59,45 +59,6 @@ std::map<std::string, std::filesystem::path> read_baked(Reader& reader, const Va
     return files;
 }
 
-MapEntry read_map(Reader& reader, const Value& table, const std::filesystem::path& folder) {
-    const bool known = reader.check_keys(table, "[[map]]",
-                                         {"name", "class", "maker", "width", "height", "seed",
-                                          "height_map", "normal_map", "colour_map", "baked"});
-    MapEntry entry;
-    entry.position = table.position;
-    entry.name = reader.text(table, "name", "");
-    entry.map_class = reader.text(table, "class", "");
-    entry.baked = read_baked(reader, table, folder);
-    const bool made = table.find("maker") != nullptr;
-    for (const char* key : {"width", "height", "seed"})
-        if (const Member* member = table.find(key); member && !made)
-            reader.refuse(member->position, "scene-conflict",
-                          fmt::format("{} is for procedural maps, which name a maker", key));
-    for (const char* key : {"height_map", "normal_map", "colour_map"})
-        if (const Member* member = table.find(key); member && made)
-            reader.refuse(member->position, "scene-conflict",
-                          fmt::format("a map has either a maker or a {}, not both", key));
-    if (made) {
-        entry.maker = reader.text(table, "maker", "");
-        check_maker(reader, table, entry.maker);
-        const Range side{1, maps::largest_side};
-        entry.width = reader.whole(table, "width", entry.width, side);
-        entry.height = reader.whole(table, "height", entry.width, side);
-        entry.seed =
-            reader.whole(table, "seed", entry.seed, {0, std::numeric_limits<std::uint32_t>::max()});
-        return entry;
-    }
-    const auto height = read_path(reader, table, "height_map", folder);
-    if (!height && known)
-        reader.refuse(table.position, "scene-missing",
-                      "a [[map]] needs a maker (procedural) or a height_map (a PNG file)");
-    entry.files =
-        measure::MapFiles{height.value_or(""), read_path(reader, table, "normal_map", folder),
-                          read_path(reader, table, "colour_map", folder),
-                          {}};
-    return entry;
-}
-
 // A knob and the values it takes, as written: 8 stays 8, 0.50 becomes 0.5.
 struct Sweep {
     std::string knob;
@@ -115,16 +76,6 @@ std::vector<Sweep> read_knobs(Reader& reader, const Value& variant) {
         sweeps.push_back(std::move(sweep));
     }
     return sweeps;
-}
-
-std::map<std::string, ir::LoopForm> read_loops(Reader& reader, const Value& variant) {
-    const Value& table = reader.table(variant, "loops");
-    std::map<std::string, ir::LoopForm> forms;
-    for (const Member& member : table.members)
-        forms[member.key] = reader.choice(table, member.key, 0, {"loop", "unroll"}) == 0
-                                ? ir::LoopForm::Rolled
-                                : ir::LoopForm::Unrolled;
-    return forms;
 }
 
 // Every combination of the knobs' values, the first knob slowest.
@@ -152,7 +103,32 @@ void add_normal(const std::map<std::string, std::filesystem::path>& baked,
         arguments.insert(arguments.end(), {"--baked", "normal=" + normal->second.string()});
 }
 
+// The map's files as the file that names them wrote them, whatever folder it was read from.
+std::vector<std::string> arguments_in(MapEntry entry, const std::filesystem::path& folder) {
+    const auto as_written = [&](std::filesystem::path& file) {
+        const std::filesystem::path written = file.lexically_relative(folder);
+        if (!written.empty()) file = written;
+    };
+    if (entry.files) {
+        as_written(entry.files->height);
+        if (entry.files->normal) as_written(*entry.files->normal);
+        if (entry.files->colour) as_written(*entry.files->colour);
+    }
+    for (auto& [kind, file] : entry.baked) as_written(file);
+    return arguments_of(entry);
+}
+
 }  // namespace
+
+std::map<std::string, ir::LoopForm> read_loops(Reader& reader, const Value& variant) {
+    const Value& table = reader.table(variant, "loops");
+    std::map<std::string, ir::LoopForm> forms;
+    for (const Member& member : table.members)
+        forms[member.key] = reader.choice(table, member.key, 0, {"loop", "unroll"}) == 0
+                                ? ir::LoopForm::Rolled
+                                : ir::LoopForm::Unrolled;
+    return forms;
+}
 
 std::vector<measure::Direction> read_directions(Reader& reader, const Value& document,
                                                 std::string_view key,
@@ -172,11 +148,54 @@ std::vector<measure::Direction> read_directions(Reader& reader, const Value& doc
     return directions;
 }
 
+MapEntry read_map_entry(Reader& reader, const Value& table, std::string_view title, bool known,
+                        const std::filesystem::path& folder) {
+    MapEntry entry;
+    entry.position = table.position;
+    entry.baked = read_baked(reader, table, folder);
+    const bool made = table.find("maker") != nullptr;
+    for (const char* key : {"width", "height", "seed"})
+        if (const Member* member = table.find(key); member && !made)
+            reader.refuse(member->position, "scene-conflict",
+                          fmt::format("{} is for procedural maps, which name a maker", key));
+    for (const char* key : {"height_map", "normal_map", "colour_map"})
+        if (const Member* member = table.find(key); member && made)
+            reader.refuse(member->position, "scene-conflict",
+                          fmt::format("a map has either a maker or a {}, not both", key));
+    if (made) {
+        entry.maker = reader.text(table, "maker", "");
+        check_maker(reader, table, entry.maker);
+        const Range side{1, maps::largest_side};
+        entry.width = reader.whole(table, "width", entry.width, side);
+        entry.height = reader.whole(table, "height", entry.width, side);
+        entry.seed =
+            reader.whole(table, "seed", entry.seed, {0, std::numeric_limits<std::uint32_t>::max()});
+        return entry;
+    }
+    const auto height = read_path(reader, table, "height_map", folder);
+    if (!height && known)
+        reader.refuse(
+            table.position, "scene-missing",
+            fmt::format("a {} needs a maker (procedural) or a height_map (a PNG file)", title));
+    entry.files = measure::MapFiles{height.value_or(""),
+                                    read_path(reader, table, "normal_map", folder),
+                                    read_path(reader, table, "colour_map", folder),
+                                    {}};
+    return entry;
+}
+
 std::vector<MapEntry> read_maps(Reader& reader, const Value& document,
                                 const std::filesystem::path& folder) {
     std::vector<MapEntry> entries;
-    for (const Value* table : reader.tables(document, "map"))
-        entries.push_back(read_map(reader, *table, folder));
+    for (const Value* table : reader.tables(document, "map")) {
+        const bool known = reader.check_keys(*table, "[[map]]",
+                                             {"name", "class", "maker", "width", "height", "seed",
+                                              "height_map", "normal_map", "colour_map", "baked"});
+        MapEntry entry = read_map_entry(reader, *table, "[[map]]", known, folder);
+        entry.name = reader.text(*table, "name", "");
+        entry.map_class = reader.text(*table, "class", "");
+        entries.push_back(std::move(entry));
+    }
     return entries;
 }
 
@@ -246,6 +265,18 @@ Result<measure::MapSet> load_map(const MapEntry& entry, double scale) {
         return status.error();
     if (!entry.name.empty()) set->name = entry.name;
     return set;
+}
+
+Result<measure::CaseMap> load_case_map(const MapEntry& entry, double scale,
+                                       const std::filesystem::path& folder) {
+    Result<measure::MapSet> set = load_map(entry, scale);
+    if (!set) return set.error();
+    measure::CaseMap map;
+    map.hash = measure::content_hash(*set);
+    map.map_class = entry.map_class.empty() ? set->name : entry.map_class;
+    map.arguments = arguments_in(entry, folder);
+    map.set = std::move(*set);
+    return map;
 }
 
 Diagnostic placed(Diagnostic error, const std::string& scene, Position position) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "generator/base/nearest.h"
@@ -101,6 +102,44 @@ std::vector<double> Reader::numbers(const Value& table, std::string_view key,
         values.push_back(value);
     }
     return values;
+}
+
+Span Reader::span(const Value& table, std::string_view key, Span fallback, Range range) {
+    const Member* member = table.find(key);
+    if (!member) return fallback;
+    if (member->value.kind != Kind::Array) {
+        const double one = number_of(member->value, key, range);
+        return {one, one};
+    }
+    const std::vector<Value>& items = member->value.items;
+    if (items.size() != 2) {
+        refuse(member->value.position, code("type"),
+               fmt::format("{} is a number or a range of two, and has {}", key, items.size()));
+        return fallback;
+    }
+    const Span span{number_of(items[0], key, range), number_of(items[1], key, range)};
+    if (span.least <= span.most) return span;
+    refuse(member->value.position, code("range"),
+           fmt::format("{} begins at {} and ends at {}: write the lesser first", key, span.least,
+                       span.most));
+    return fallback;
+}
+
+std::vector<double> Reader::vector_of(const Value& value, std::string_view what, std::size_t least,
+                                      std::size_t most) {
+    constexpr double any = std::numeric_limits<float>::max();
+    std::vector<double> numbers;
+    if (!is(value, Kind::Array, what)) return std::vector<double>(least);
+    if (value.items.size() < least || value.items.size() > most) {
+        const std::string wanted =
+            least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
+        refuse(
+            value.position, code("type"),
+            fmt::format("{} must have {} numbers, and has {}", what, wanted, value.items.size()));
+        return std::vector<double>(least);
+    }
+    for (const Value& item : value.items) numbers.push_back(number_of(item, what, {-any, any}));
+    return numbers;
 }
 
 std::vector<std::string> Reader::texts(const Value& table, std::string_view key) {

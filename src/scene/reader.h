@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "src/scene/document.h"
+#include "src/scene/span.h"
 
 namespace intaglio::scene {
 
@@ -49,6 +50,11 @@ class Reader {
     // "scene-duplicate".
     std::vector<double> numbers(const Value& table, std::string_view key,
                                 std::vector<double> fallback, Range range);
+    // A number, or [least, most].
+    Span span(const Value& table, std::string_view key, Span fallback, Range range);
+    // An array of `least` to `most` finite numbers; that many zeros where it is refused.
+    std::vector<double> vector_of(const Value& value, std::string_view what, std::size_t least,
+                                  std::size_t most);
     // A string or a list of different strings, not empty.
     std::vector<std::string> texts(const Value& table, std::string_view key);
     // The position in `choices` of the string under `key`; `fallback` where there is none.  Code

@@ -87,20 +87,6 @@ std::vector<Row> read_rows(Reader& reader, const Value& document, const Axes& ax
     return rows;
 }
 
-// The map's files as the sweep wrote them, whatever folder it was read from.
-std::vector<std::string> arguments_in(MapEntry entry, const std::filesystem::path& folder) {
-    const auto as_written = [&](std::filesystem::path& file) {
-        const std::filesystem::path written = file.lexically_relative(folder);
-        if (!written.empty()) file = written;
-    };
-    if (entry.files) {
-        as_written(entry.files->height);
-        if (entry.files->normal) as_written(*entry.files->normal);
-        if (entry.files->colour) as_written(*entry.files->colour);
-    }
-    return arguments_of(entry);
-}
-
 // Each map at each scale: normals that are baked depend on it.
 Status load_maps(const std::vector<MapEntry>& entries, const Axes& axes,
                  const std::filesystem::path& path, measure::SweepPlan& plan) {
@@ -108,20 +94,16 @@ Status load_maps(const std::vector<MapEntry>& entries, const Axes& axes,
     for (double scale : axes.scales) {
         const std::size_t first = plan.maps.size();
         for (const MapEntry& entry : entries) {
-            Result<measure::MapSet> set = load_map(entry, scale);
-            if (!set) return placed(set.error(), file, entry.position);
+            Result<measure::CaseMap> map = load_case_map(entry, scale, path.parent_path());
+            if (!map) return placed(map.error(), file, entry.position);
+            const std::string& name = map->set.name;
             for (std::size_t i = first; i < plan.maps.size(); ++i)
-                if (plan.maps[i].set.name == set->name)
+                if (plan.maps[i].set.name == name)
                     return input_error(
                         "scene-duplicate",
-                        fmt::format("two maps are called '{}': give one another name", set->name),
-                        file, entry.position.line, entry.position.column);
-            measure::CaseMap map;
-            map.hash = measure::content_hash(*set);
-            map.map_class = entry.map_class.empty() ? set->name : entry.map_class;
-            map.arguments = arguments_in(entry, path.parent_path());
-            map.set = std::move(*set);
-            plan.maps.push_back(std::move(map));
+                        fmt::format("two maps are called '{}': give one another name", name), file,
+                        entry.position.line, entry.position.column);
+            plan.maps.push_back(std::move(*map));
         }
     }
     return Done{};

@@ -1,0 +1,28 @@
+// Names in scene files.  Inside src/scene only.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "generator/dsl/catalogue.h"
+#include "src/scene/reader.h"
+
+namespace intaglio::scene {
+
+// What a surface can pin.
+inline constexpr std::string_view part_names[] = {"search",  "shadow", "normal",
+                                                  "shading", "output", "vertex"};
+
+// A list of different strings, which may be empty, each with its place.
+std::vector<std::pair<std::string, Position>> read_names(Reader& reader, const Value& table,
+                                                         std::string_view key);
+
+// Why it is no identifier of C++ that may name files and types; empty where it is one.
+std::string wrong_identifier(const std::string& name);
+
+// Refuses techniques that the catalogue does not have, code "unknown-technique".
+void check_techniques(Reader& reader, const Value& surface, const dsl::Catalogue& catalogue);
+
+}  // namespace intaglio::scene
