@@ -24,9 +24,10 @@ intaglio_packages=(
     # plots of the report
     libjs-chart.js
 )
-# What only the tests use: a browser for the report's live part, 122 MB to fetch and 409 MB installed.
+# What only the tests use: a browser for the report's live part, 122 MB to fetch and 409 MB installed; a shell to
+# complete words in, and a reader of the manual page.
 # shellcheck disable=SC2034
-intaglio_test_packages=(chromium chromium-driver python3-selenium)
+intaglio_test_packages=(chromium chromium-driver python3-selenium zsh mandoc)
 
 say() { printf '\n== %s\n' "$*"; }
 note() { printf '   %s\n' "$*"; }

@@ -6,6 +6,8 @@
 
 #include "src/cli/bake.h"
 #include "src/cli/commands.h"
+#include "src/cli/completion.h"
+#include "src/cli/description.h"
 #include "src/cli/hard.h"
 #include "src/cli/sweep.h"
 
@@ -405,6 +407,7 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
     add_bake(app, chosen);
     add_hard(app, catalogue, chosen);
     add_stability(app, catalogue, chosen);
+    add_shells(app, chosen);
 }
 
 }  // namespace
@@ -415,9 +418,15 @@ int run_command_line(int argument_count, const char* const* arguments,
         "Shaders for relief surfaces: written once, emitted for every shader model, measured.",
         "intaglio");
     app.require_subcommand(1);
-    app.set_version_flag("--version", std::string("intaglio 0.1.0"));
+    app.set_version_flag("--version", fmt::format("intaglio {}", version()));
     std::function<Status()> chosen;
     add_commands(app, catalogue, chosen);
+    name_values(app);
+    // Words that are not finished are not parsed.
+    if (argument_count > 1 && arguments[1] == std::string_view(complete_command)) {
+        const std::vector<std::string> words(arguments + 2, arguments + argument_count);
+        return report(write_product("-", complete_words(describe(app), catalogue, words), false));
+    }
     try {
         app.parse(argument_count, arguments);
     } catch (const CLI::ParseError& error) {

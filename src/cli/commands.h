@@ -15,6 +15,9 @@
 
 namespace intaglio::cli {
 
+// "0.1.0"
+const char* version();
+
 struct ListOptions {
     std::string what = "techniques";  // techniques, targets, knobs, maps
     bool json = false;

@@ -1,15 +1,7 @@
 # Builds examples/02_own_technique as its author would, and asks it for every target.
 set(ENV{LSAN_OPTIONS} "suppressions=${LSAN}")
 
-function(run expectation)
-  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors)
-  if(NOT result EQUAL 0)
-    message(FATAL_ERROR "${ARGN}\nexit ${result}\n${output}\n${errors}")
-  endif()
-  if(NOT output MATCHES "${expectation}")
-    message(FATAL_ERROR "${ARGN}\nthe output does not hold '${expectation}':\n${output}")
-  endif()
-endfunction()
+include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 
 run("" ${CMAKE_COMMAND} -S ${SOURCE} -B ${BINARY} -G ${GENERATOR} -Dintaglio_DIR=${PACKAGE}
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS=${FLAGS}")
