@@ -25,9 +25,9 @@ intaglio_packages=(
     libjs-chart.js
 )
 # What only the tests use: a browser for the report's live part, 122 MB to fetch and 409 MB installed; a shell to
-# complete words in, and a reader of the manual page.
+# complete words in, a reader of the manual page, and a judge of JSON schemas.
 # shellcheck disable=SC2034
-intaglio_test_packages=(chromium chromium-driver python3-selenium zsh mandoc)
+intaglio_test_packages=(chromium chromium-driver python3-selenium zsh mandoc python3-jsonschema)
 
 say() { printf '\n== %s\n' "$*"; }
 note() { printf '   %s\n' "$*"; }

@@ -54,12 +54,12 @@ void read_metrics(Reader& reader, const Value& table, std::string_view title,
 void check_target(Reader& reader, Position position, const std::string& name) {
     std::vector<std::string> names;
     for (const Target* target : all_targets())
-        if (target->pixel_stage) names.emplace_back(target->name);
+        if (target->pixel_stage && is_judged(*target)) names.emplace_back(target->name);
     const Target* target = find_target(name);
     if (target && !target->pixel_stage)
         reader.refuse(position, "unknown-target",
                       fmt::format("{} has no pixel stage; name the pixel shaders' profile", name));
-    else if (!target)
+    else if (!target || !is_judged(*target))
         reader.refuse(position, "unknown-target", unknown_name_sentence("target", name, names));
 }
 

@@ -29,7 +29,7 @@ bool Reader::is(const Value& value, Kind kind, std::string_view what) {
 }
 
 bool Reader::check_keys(const Value& table, std::string_view table_name,
-                        std::initializer_list<std::string_view> keys) {
+                        std::span<const std::string_view> keys) {
     const std::vector<std::string> names(keys.begin(), keys.end());
     bool known = true;
     for (const Member& member : table.members) {

@@ -5,6 +5,7 @@
 
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,7 +34,11 @@ class Reader {
     // False where there is one: then what seems missing is probably there, misspelled.  Code
     // "scene-unknown-key".
     bool check_keys(const Value& table, std::string_view table_name,
-                    std::initializer_list<std::string_view> keys);
+                    std::span<const std::string_view> keys);
+    bool check_keys(const Value& table, std::string_view table_name,
+                    std::initializer_list<std::string_view> keys) {
+        return check_keys(table, table_name, {keys.begin(), keys.size()});
+    }
 
     // The member's value, or `fallback` where the table has none.  Codes: "scene-type",
     // "scene-range".

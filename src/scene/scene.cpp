@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "generator/base/nearest.h"
+#include "src/scene/keys.h"
 #include "src/scene/limits.h"
 #include "src/scene/names.h"
 #include "src/scene/parts.h"
@@ -135,12 +136,7 @@ void read_name(Reader& reader, const Value& table, bool known, const std::vector
 
 Entry read_surface(Reader& reader, const Value& table, const Common& common,
                    const std::vector<Entry>& others, const std::filesystem::path& folder) {
-    const bool known = reader.check_keys(
-        table, "[[surface]]",
-        {"name",     "height_map", "normal_map", "colour_map", "baked",  "maker",   "width",
-         "height",   "seed",       "scale",      "features",   "lights", "targets", "search",
-         "shadow",   "normal",     "shading",    "output",     "vertex", "knobs",   "loops",
-         "uniforms", "place",      "view",       "tolerance",  "budget"});
+    const bool known = reader.check_keys(table, "[[surface]]", surface_keys);
     Entry entry;
     SceneSurface& surface = entry.surface;
     surface.line = table.position.line;
@@ -256,9 +252,7 @@ Status complete(const Common& common, Entry& entry, Scene& scene) {
 }
 
 Common read_common(Reader& reader, const Value& document) {
-    reader.check_keys(document, "the scene",
-                      {"name", "targets", "size", "read_weight", "view", "camera", "light",
-                       "tolerance", "budget", "surface"});
+    reader.check_keys(document, "the scene", scene_keys);
     Common common;
     common.view = read_view(reader, document, "[view]");
     common.camera = read_camera(reader, document);

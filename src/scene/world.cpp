@@ -5,6 +5,8 @@
 
 #include <limits>
 
+#include "src/scene/keys.h"
+
 namespace intaglio::scene {
 namespace {
 
@@ -79,7 +81,7 @@ std::array<double, 2> read_pair(Reader& reader, const Value& table, std::string_
 
 ViewEntry read_view(Reader& reader, const Value& parent, std::string_view title) {
     const Value& table = reader.table(parent, "view");
-    reader.check_keys(table, title, {"elevation", "azimuth", "distance"});
+    reader.check_keys(table, title, view_keys);
     ViewEntry view;
     view.elevation = optional_span(reader, table, "elevation", {flattest, 90});
     view.azimuth = optional_span(reader, table, "azimuth", turns);
@@ -91,9 +93,7 @@ ViewEntry read_view(Reader& reader, const Value& parent, std::string_view title)
 std::optional<Camera> read_camera(Reader& reader, const Value& document) {
     if (!document.find("camera")) return std::nullopt;
     const Value& table = reader.table(document, "camera");
-    reader.check_keys(
-        table, "[camera]",
-        {"path", "targets", "field_of_view", "aspect", "pixels", "near", "least_elevation"});
+    reader.check_keys(table, "[camera]", camera_keys);
     Camera camera;
     camera.path = read_points(reader, table, "path");
     camera.targets = read_points(reader, table, "targets");
@@ -117,8 +117,7 @@ std::optional<Camera> read_camera(Reader& reader, const Value& document) {
 std::vector<LightEntry> read_lights(Reader& reader, const Value& document) {
     std::vector<LightEntry> lights;
     for (const Value* table : reader.tables(document, "light")) {
-        const bool known = reader.check_keys(*table, "[[light]]",
-                                             {"name", "elevation", "azimuth", "place", "shadows"});
+        const bool known = reader.check_keys(*table, "[[light]]", light_keys);
         LightEntry light;
         light.name = reader.text(*table, "name", "");
         const Member* name = table->find("name");
@@ -150,8 +149,7 @@ std::vector<LightEntry> read_lights(Reader& reader, const Value& document) {
 
 PlaceEntry read_place(Reader& reader, const Value& surface) {
     const Value& table = reader.table(surface, "place");
-    reader.check_keys(table, "[surface.place]",
-                      {"position", "normal", "tangent", "mirrored", "size", "repeat"});
+    reader.check_keys(table, "[surface.place]", place_keys);
     const Place upright;
     const Point normal = read_point(reader, table, "normal", upright.normal);
     const Point tangent = read_point(reader, table, "tangent", upright.tangent);

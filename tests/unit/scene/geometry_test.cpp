@@ -120,7 +120,7 @@ TEST(SceneCamera, WhateverTheCameraSeesIsInTheRange) {
 
 // The ends of the ranges occur: a fine grid comes near them.  Its own coarseness is the tolerance.
 TEST(SceneCamera, TheRangeIsNoWiderThanWhatIsSeen) {
-    for (unsigned seed = 1; seed <= 40; ++seed) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
         Dice dice(seed);
         Place place = dice.place();
         Camera camera;
@@ -138,7 +138,7 @@ TEST(SceneCamera, TheRangeIsNoWiderThanWhatIsSeen) {
         ASSERT_TRUE(ranges);
         Span elevation{90, -90}, distance{1e9, 0};
         std::vector<double> azimuths;
-        constexpr int steps = 48;
+        constexpr int steps = 32;
         for (int t = 0; t <= steps; ++t)
             for (int i = 0; i <= steps; ++i)
                 for (int j = 0; j <= steps; ++j) {
@@ -155,7 +155,7 @@ TEST(SceneCamera, TheRangeIsNoWiderThanWhatIsSeen) {
                     distance.least = std::min(distance.least, sample.distance);
                     distance.most = std::max(distance.most, sample.distance);
                 }
-        // A grid point lies within 0.16 of any other of path and place, and the eye 1 away: 13
+        // A grid point lies within 0.2 of any other of path and place, and the eye 1 away: 13
         // degrees at the very worst, where both turn by it.
         EXPECT_NEAR(ranges->elevation.least, elevation.least, 2) << "seed " << seed;
         EXPECT_NEAR(ranges->elevation.most, elevation.most, 13) << "seed " << seed;
