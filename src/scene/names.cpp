@@ -46,20 +46,31 @@ constexpr std::string_view words_of_cpp[] = {"alignas",       "alignof",     "an
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
-template <typename Kind>
-std::vector<std::string> names_of(const std::vector<dsl::Entry<Kind>>& entries) {
+struct Row {
+    std::string name;
+    std::vector<std::string> knobs;
+};
+
+std::vector<std::string> names_of(const std::vector<dsl::KnobBase*>& knobs) {
     std::vector<std::string> names;
-    for (const auto& entry : entries) names.push_back(entry.name);
+    for (const dsl::KnobBase* knob : knobs) names.push_back(knob->name());
     return names;
 }
 
-std::vector<std::string> techniques_of(const dsl::Catalogue& catalogue, std::string_view part) {
-    if (part == "search") return names_of(catalogue.searches);
-    if (part == "shadow") return names_of(catalogue.shadows);
-    if (part == "normal") return names_of(catalogue.normals);
-    if (part == "shading") return names_of(catalogue.shadings);
-    if (part == "output") return names_of(catalogue.outputs);
-    return names_of(catalogue.vertex_works);
+template <typename Kind>
+std::vector<Row> rows_of(const std::vector<dsl::Entry<Kind>>& entries) {
+    std::vector<Row> rows;
+    for (const auto& entry : entries) rows.push_back({entry.name, names_of(entry.make()->knobs())});
+    return rows;
+}
+
+std::vector<Row> rows_of(const dsl::Catalogue& catalogue, std::string_view part) {
+    if (part == "search") return rows_of(catalogue.searches);
+    if (part == "shadow") return rows_of(catalogue.shadows);
+    if (part == "normal") return rows_of(catalogue.normals);
+    if (part == "shading") return rows_of(catalogue.shadings);
+    if (part == "output") return rows_of(catalogue.outputs);
+    return rows_of(catalogue.vertex_works);
 }
 
 }  // namespace
@@ -95,15 +106,33 @@ std::string wrong_identifier(const std::string& name) {
     return {};
 }
 
-void check_techniques(Reader& reader, const Value& surface, const dsl::Catalogue& catalogue) {
+void check_pinned(Reader& reader, const Value& surface, const dsl::Catalogue& catalogue) {
+    std::vector<std::string> knobs;
     for (std::string_view part : part_names) {
         const Member* member = surface.find(part);
-        if (!member || member->value.kind != Kind::String) continue;
-        const std::vector<std::string> names = techniques_of(catalogue, part);
-        if (std::find(names.begin(), names.end(), member->value.text) == names.end())
+        const bool pinned = member && member->value.kind == Kind::String;
+        std::vector<std::string> names;
+        for (const Row& row : rows_of(catalogue, part)) {
+            names.push_back(row.name);
+            if (pinned && row.name != member->value.text) continue;
+            knobs.insert(knobs.end(), row.knobs.begin(), row.knobs.end());
+        }
+        if (pinned && std::find(names.begin(), names.end(), member->value.text) == names.end())
             reader.refuse(member->value.position, "unknown-technique",
                           unknown_name_sentence(part, member->value.text, names));
     }
+    // Those of the surface as a whole.
+    if (const auto any = dsl::make_surface(catalogue, catalogue.searches.front().name)) {
+        const std::vector<std::string> whole = names_of(any->knobs());
+        knobs.insert(knobs.end(), whole.begin(), whole.end());
+    }
+    std::sort(knobs.begin(), knobs.end());
+    knobs.erase(std::unique(knobs.begin(), knobs.end()), knobs.end());
+    const Value& table = reader.table(surface, "knobs");
+    for (const Member& member : table.members)
+        if (!std::binary_search(knobs.begin(), knobs.end(), member.key))
+            reader.refuse(member.position, "unknown-knob",
+                          unknown_name_sentence("knob", member.key, knobs));
 }
 
 }  // namespace intaglio::scene

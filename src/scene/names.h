@@ -22,7 +22,8 @@ std::vector<std::pair<std::string, Position>> read_names(Reader& reader, const V
 // Why it is no identifier of C++ that may name files and types; empty where it is one.
 std::string wrong_identifier(const std::string& name);
 
-// Refuses techniques that the catalogue does not have, code "unknown-technique".
-void check_techniques(Reader& reader, const Value& surface, const dsl::Catalogue& catalogue);
+// Refuses pinned techniques that the catalogue does not have, code "unknown-technique", and knobs
+// that none of the techniques left to choose from has, code "unknown-knob".
+void check_pinned(Reader& reader, const Value& surface, const dsl::Catalogue& catalogue);
 
 }  // namespace intaglio::scene

@@ -310,7 +310,7 @@ Result<Scene> read_scene(const std::filesystem::path& path, const dsl::Catalogue
     const Common common = read_common(reader, *document);
     std::vector<Entry> entries;
     for (const Value* table : reader.tables(*document, "surface")) {
-        if (catalogue) check_techniques(reader, *table, *catalogue);
+        if (catalogue) check_pinned(reader, *table, *catalogue);
         entries.push_back(read_surface(reader, *table, common, entries, path.parent_path()));
     }
     if (reader.error()) return *reader.error();

@@ -126,13 +126,14 @@ struct Scene {
     double read_weight = 4;  // operations that one texture read counts as, in the cost of a plan
 };
 
-// Reads a scene and loads its maps.  With a catalogue the names of pinned techniques are looked up.
+// Reads a scene and loads its maps.  With a catalogue the names of pinned techniques and knobs are
+// looked up.
 //
 // Codes: those of read_measurement; "scene-name" for a name that is no identifier or that two
 // surfaces have; "unknown-feature", "unknown-light", "unknown-metric", "unknown-target",
-// "unknown-technique", each with the nearest; "scene-not-applicable" for a metric that a target
-// does not have; "scene-unseen" for a surface whose front the camera never sees.  All with line and
-// column, of the first mistake in the file.
+// "unknown-technique", "unknown-knob", each with the nearest; "scene-not-applicable" for a metric
+// that a target does not have; "scene-unseen" for a surface whose front the camera never sees.  All
+// with line and column, of the first mistake in the file.
 Result<Scene> read_scene(const std::filesystem::path& path,
                          const dsl::Catalogue* catalogue = nullptr);
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "templates/all_techniques.h"
 #include "tests/unit/scene/scene_file.h"
@@ -66,7 +67,7 @@ TEST(SceneOfSurfaces, EverythingSaidArrives) {
         "scale = 0.25\nfeatures = ['shadow', 'depth', 'silhouette', 'fur']\n"
         "targets = ['ps_2_b', 'spirv']\nsearch = 'relief'\nshadow = 'march'\nnormal = 'blinn'\n"
         "shading = 'lambert'\noutput = 'depth'\nvertex = 'tangent_space'\n"
-        "knobs = { taps = 8, b = 0.50 }\nloops = { march = 'unroll' }\n"
+        "knobs = { binary_steps = 8, level = 0.50 }\nloops = { march = 'unroll' }\n"
         "uniforms = { ambient = [0.5, 0.25, 1], gloss = 2 }\n");
     EXPECT_EQ(surface.scale, 0.25);
     EXPECT_THAT(surface.features,
@@ -76,7 +77,7 @@ TEST(SceneOfSurfaces, EverythingSaidArrives) {
                 ElementsAre(Pair("normal", "blinn"), Pair("output", "depth"),
                             Pair("search", "relief"), Pair("shading", "lambert"),
                             Pair("shadow", "march"), Pair("vertex", "tangent_space")));
-    EXPECT_THAT(surface.knobs, ElementsAre(Pair("taps", "8"), Pair("b", "0.5")));
+    EXPECT_THAT(surface.knobs, ElementsAre(Pair("binary_steps", "8"), Pair("level", "0.5")));
     EXPECT_THAT(surface.loop_forms, ElementsAre(Pair("march", ir::LoopForm::Unrolled)));
     EXPECT_THAT(surface.uniforms,
                 ElementsAre(Pair("ambient", ElementsAre(0.5f, 0.25f, 1.0f)),
@@ -290,6 +291,10 @@ const Mistake mistakes[] = {
      "unknown-technique", 9, 10},
     {"SearchOfNothing", in_surface("search = ''"), "", "unknown-technique", 9, 10},
     {"Shading", in_surface("shading = 'fong'"), "unknown shading", "unknown-technique", 9, 11},
+    {"UnknownKnob", in_surface("knobs = { tabs = 1 }"), "did you mean 'taps'?", "unknown-knob", 9,
+     11},
+    {"KnobOfAnother", in_surface("search = 'relief'\nknobs = { cone_steps = 1 }"),
+     "unknown knob 'cone_steps'", "unknown-knob", 10, 11},
     {"KnobIsList", in_surface("knobs = { taps = [1, 2] }"), "taps must be a number", "scene-type",
      9, 18},
     {"Loop", in_surface("loops = { march = 'rolled' }"), "march", "scene-choice", 9, 19},
@@ -331,6 +336,33 @@ TEST_P(SurfaceMistakes, HaveASentenceWithItsPlace) {
 
 INSTANTIATE_TEST_SUITE_P(Rules, SurfaceMistakes, ::testing::ValuesIn(mistakes),
                          [](const auto& mistake) { return std::string(mistake.param.name); });
+
+// Whatever is cut out of a scene, it is read, or refused with a sentence about the file.
+TEST(SceneOfSurfaces, AnythingCutOutIsAMistakeAtWorst) {
+    const std::string whole =
+        head +
+        "[camera]\npath = [[0, 0, 2], [1, 0, 2]]\ntargets = [[0, 0, 0], [1, 0, 0]]\n"
+        "[[light]]\nname = 'sun'\nelevation = [30, 50]\n" +
+        tolerance + "[budget.ps_2_0]\narithmetic = 64\n" + wall +
+        "lights = ['sun']\nplace = { normal = [0, 0, 1], size = [2, 1] }\n"
+        "knobs = { taps = 8 }\nuniforms = { ambient = [1, 1, 1] }\n";
+    const dsl::Catalogue catalogue = templates::all_techniques();
+    std::mt19937 random(1);
+    int refused = 0;
+    for (int i = 0; i < 300; ++i) {
+        std::string text = whole;
+        const std::size_t at = random() % text.size();
+        text.erase(at, 1 + random() % (i % 2 == 0 ? 3 : 40));
+        const SceneFile file(text);
+        const Result<Scene> scene = read_scene(file.path(), &catalogue);
+        if (scene.ok()) continue;
+        ++refused;
+        EXPECT_EQ(scene.error().fault, Fault::Input) << text;
+        EXPECT_FALSE(scene.error().message.empty()) << text;
+        EXPECT_GT(scene.error().line, 0) << text << to_string(scene.error());
+    }
+    EXPECT_GT(refused, 100);
+}
 
 }  // namespace
 }  // namespace intaglio::scene
