@@ -15,9 +15,17 @@ namespace intaglio::cli {
 namespace {
 
 void add_settings(CLI::App& command, std::vector<std::string>& knobs,
-                  std::vector<std::string>& loops) {
+                  std::vector<std::string>& loops, KnownOptions& known) {
     command.add_option("-D,--define", knobs, "Knob: taps=12 (repeatable)")->allow_extra_args(false);
     command.add_option("--loop", loops, "Form of a loop: march=unroll or march=loop (repeatable)")
+        ->allow_extra_args(false);
+    command
+        .add_option("--fix", known.fixed,
+                    "Uniform that becomes a constant: scale=0.05, ambient=0.1,0.1,0.1 (repeatable)")
+        ->allow_extra_args(false);
+    command
+        .add_option("--assume", known.assumed,
+                    "Range of a value by which guards are left out: view.z=0.25..1 (repeatable)")
         ->allow_extra_args(false);
 }
 
@@ -28,7 +36,7 @@ void add_variant(CLI::App& command, VariantOptions& options) {
         ->required();
     command.add_option("-T,--target", options.target, "Target; see `intaglio list targets`")
         ->required();
-    add_settings(command, options.knobs, options.loops);
+    add_settings(command, options.knobs, options.loops, options.known);
     command.add_flag("--per-vertex", options.per_vertex,
                      "Move affine functions of interpolants to the vertex stage");
     command.add_option("--split", options.split,
@@ -190,7 +198,7 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
             ->add_option("-T,--target", options->targets,
                          "Target (repeatable); every target if not given")
             ->allow_extra_args(false);
-        add_settings(*command, options->knobs, options->loops);
+        add_settings(*command, options->knobs, options->loops, options->known);
         command->add_flag("-v,--verbose", options->verbose, "Every step of every witness");
         command->callback([&chosen, &catalogue, options] {
             chosen = [&, options] { return validate(catalogue, *options); };

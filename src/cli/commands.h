@@ -24,6 +24,14 @@ struct ListOptions {
 };
 Status list(const dsl::Catalogue& catalogue, const ListOptions& options);
 
+// What is known of a variant's values before it runs.
+struct KnownOptions {
+    std::vector<std::string> fixed;    // "scale=0.05", "ambient=0.1,0.1,0.1"
+    std::vector<std::string> assumed;  // "view.z=0.25..1"
+};
+// Error "known-syntax".
+Result<passes::Known> known_of(const KnownOptions& options);
+
 // What names a variant, on every command that takes one.
 struct VariantOptions {
     std::string surface;
@@ -33,6 +41,7 @@ struct VariantOptions {
     bool per_vertex = false;
     std::string split = {};  // "shading", "sections=3,shading"; empty: one pass
     int pass = 0;            // of the split, from 1; 0: all of them, where a command can
+    KnownOptions known = {};
 };
 Result<VariantRequest> request_of(const VariantOptions& options);
 
@@ -55,6 +64,7 @@ struct ValidateOptions {
     std::vector<std::string> surfaces;
     std::vector<std::string> targets;  // empty: every target
     std::vector<std::string> knobs, loops;
+    KnownOptions known = {};
     bool verbose = false;
 };
 Status validate(const dsl::Catalogue& catalogue, const ValidateOptions& options);

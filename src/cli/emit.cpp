@@ -158,6 +158,7 @@ Status validate_one(const dsl::Catalogue& catalogue, const ValidateOptions& opti
     one.target = target;
     one.knobs = options.knobs;
     one.loops = options.loops;
+    one.known = options.known;
     const Result<VariantRequest> request = request_of(one);
     if (!request) return request.error();
     const Result<Variant> variant = make_variant(catalogue, *request);

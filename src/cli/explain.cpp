@@ -82,6 +82,8 @@ std::string text_of(const ExplainedVariant& variant, const std::string& target) 
     for (std::size_t i = 0; i < variant.settings.size(); ++i)
         text += fmt::format("{}{}", i == 0 ? "; " : ", ", variant.settings[i]);
     text += "\n";
+    for (const std::string& sentence : variant.left_out)
+        text += fmt::format("left out: {}\n", sentence);
     if (variant.refusal) text += fmt::format("refused: {}\n", variant.refusal->message);
     for (const ExplainedStage& stage : variant.stages) {
         const d3d9::Slots& slots = stage.explanation.slots;
@@ -135,11 +137,9 @@ ordered_json json_of(const ExplainedStage& stage) {
 }
 
 ordered_json json_of(const ExplainedVariant& variant, const std::string& target) {
-    ordered_json json = {{"surface", variant.name},
-                         {"target", target},
-                         {"settings", variant.settings},
-                         {"fits", !variant.refusal},
-                         {"stages", ordered_json::array()}};
+    ordered_json json = {{"surface", variant.name},      {"target", target},
+                         {"settings", variant.settings}, {"left_out", variant.left_out},
+                         {"fits", !variant.refusal},     {"stages", ordered_json::array()}};
     if (variant.refusal)
         json["refusal"] = {{"code", variant.refusal->code}, {"message", variant.refusal->message}};
     for (const ExplainedStage& stage : variant.stages) json["stages"].push_back(json_of(stage));

@@ -110,6 +110,7 @@ Result<ExplainedVariant> explain_variant(const dsl::Catalogue& catalogue,
                               ? explain_pixel(result, recorded->program, *profile)
                               : explain_vertex(result, recorded->program, *profile);
     if (!status) return status.error();
+    result.left_out = recorded->left_out;
     return result;
 }
 

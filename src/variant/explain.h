@@ -26,6 +26,7 @@ struct ExplainedVariant {
     std::vector<ExplainedStage> stages;  // the pixel stage first; no vertex stage for a refused one
     std::optional<Diagnostic> refusal;
     Notes notes;
+    Notes left_out;  // what is known made needless
 };
 
 // Errors: those of make_variant but for refusals by budget.

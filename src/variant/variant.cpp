@@ -56,6 +56,23 @@ Status check_loops(const VariantRequest& request, const Target& target) {
     return Done{};
 }
 
+// Whatever the surface has a name for in some pass.
+Result<passes::Known> known_here(const dsl::Surface& surface, const VariantRequest& request,
+                                 const ir::Program& program) {
+    if (request.known.empty() || dsl::pass_count(request.split) == 1) return request.known;
+    const Result<std::vector<ir::Program>> all =
+        dsl::record_passes(surface, record_options(request), request.split);
+    if (!all) return all.error();
+    passes::Known unknown = request.known;
+    for (const ir::Program& pass : *all) {
+        const passes::Known part = passes::part_of(request.known, pass);
+        for (const auto& one : part.uniforms) unknown.uniforms.erase(one.first);
+        for (const auto& one : part.ranges) unknown.ranges.erase(one.first);
+    }
+    // The sentence that says so names what this pass has.
+    return unknown.empty() ? passes::part_of(request.known, program) : request.known;
+}
+
 int longest_loop_in(const ir::Region& region) {
     int most = 1;
     for (const ir::Instruction& instruction : region.body) {
@@ -80,7 +97,11 @@ Result<Recorded> record_variant(const dsl::Catalogue& catalogue, const VariantRe
     if (!surface) return surface.error();
     Result<ir::Program> program = record_program(*surface, request);
     if (!program) return program.error();
-    return Recorded{*target, std::move(*program)};
+    const Result<passes::Known> known = known_here(*surface, request, *program);
+    if (!known) return known.error();
+    Result<Notes> left_out = passes::assume(*program, *known);
+    if (!left_out) return left_out.error();
+    return Recorded{*target, std::move(*program), std::move(*left_out)};
 }
 
 Result<Variant> make_variant(const dsl::Catalogue& catalogue, const VariantRequest& request,
@@ -131,9 +152,10 @@ Result<Artifact> make_function(const dsl::Catalogue& catalogue, const VariantReq
     if (Status status = check_loops(request, **target); !status) return status.error();
     const Result<dsl::Surface> surface = surface_of(catalogue, request);
     if (!surface) return surface.error();
-    const Result<ir::Program> program =
-        dsl::record_function(*surface, part, record_options(request));
+    Result<ir::Program> program = dsl::record_function(*surface, part, record_options(request));
     if (!program) return program.error();
+    const Result<Notes> left_out = passes::assume(*program, request.known);
+    if (!left_out) return left_out.error();
     return emit_function(*program, **target, binding, options);
 }
 

@@ -47,11 +47,14 @@ struct Product {
     bool binary = false;
 };
 
-// A surface as recorded for a target, before any pass.
+// A surface as recorded for a target, what is known of it folded in, before any other pass.
 struct Recorded {
     const Target* target;
     ir::Program program;
+    Notes left_out = {};  // a sentence for each thing that what is known made needless
 };
+// Errors: unknown names, knobs out of range; those of passes::assume.  Of a split surface each pass
+// takes what it has names for.
 Result<Recorded> record_variant(const dsl::Catalogue& catalogue, const VariantRequest& request);
 
 // Records, optimises and prints both stages.  Errors: unknown names with the nearest right one,
