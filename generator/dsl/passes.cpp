@@ -105,6 +105,31 @@ Hit search(const Surface& surface, const Relief& relief, const Ray& ray, const W
     return find_in_section(surface, relief, ray, work.section, split.sections, before);
 }
 
+// The lights that a pass looks at.  Where it does not shade, that is the first alone, whose
+// visibility it writes.
+std::vector<Light> lights_of(const Surface& surface, const Relief& relief, const Hit& hit,
+                             const Work& work, const std::optional<TakenOver>& before) {
+    const int shadowing = surface.lighting->shadowing();
+    const bool shades = work.output && surface.output->shaded();
+    if (!shades && !work.shadow && !work.output) return {};
+    const int count = std::min(surface.lighting->lights.value(), shades ? most_lights : 1);
+    std::vector<Light> lights;
+    for (int number = 0; number < count; ++number) {
+        const float3 direction =
+            unit_input(name_of_light("to_light", number), name_of_light("light", number));
+        const auto visibility = [&] {
+            if (number >= shadowing) return float1(1.0f);
+            if (number > 0 && !surface.shadow->depends_on_light()) return lights[0].visibility;
+            if (!work.shadow) return before->last;
+            Step step("shadow", "How much of the light reaches the point we see?");
+            return surface.shadow->visibility(relief, hit, direction);
+        };
+        lights.push_back(
+            {number, direction, let(name_of_light("visibility", number), visibility())});
+    }
+    return lights;
+}
+
 Status record_pixel(const Surface& surface, const RecordOptions& options, const Split& split,
                     const Work& work, ir::Program& program) {
     Recorder recorder(program.pixel);
@@ -119,23 +144,18 @@ Status record_pixel(const Surface& surface, const RecordOptions& options, const 
     const Hit hit = work.section < 0 ? Hit{before->uv, before->height}
                                      : search(surface, relief, make_ray(surface, relief, uv, view),
                                               work, split, before);
-    const float3 light = unit_input("to_light", "light");
-    const auto shadow = [&] {
-        Step step("shadow", "How much of the light reaches the point we see?");
-        return let("visibility", surface.shadow->visibility(relief, hit, light));
-    };
+    const std::vector<Light> lights = lights_of(surface, relief, hit, work, before);
+    const float1 visibility = lights.empty() ? float1(1.0f) : lights[0].visibility;
     if (!work.output) {
         const bool last_section = work.section == split.sections - 1;
-        const float1 last = work.shadow    ? shadow()
+        const float1 last = work.shadow    ? visibility
                             : last_section ? float1(1.0f)
                                            : select(*hit.found, float1(1.0f), 0.0f);
         program.pixel.outputs = {{"handed_on", ir::float4, ir::Semantic::Target}};
         return recorder.finish({hand_on(hit, uv, last).id()});
     }
-    const float1 visibility = work.shadow ? shadow() : let("visibility", before->last);
-    const float3 colour = surface.output->shaded()
-                              ? shade(surface, relief, hit, uv, view, light, visibility)
-                              : float3(0.0f);
+    const float3 colour =
+        surface.output->shaded() ? shade(surface, relief, hit, uv, view, lights) : float3(0.0f);
     const float4 value =
         let(surface.output->name(), surface.output->write(hit, visibility, colour));
     program.pixel.outputs = {{surface.output->name(), ir::float4, ir::Semantic::Target}};
@@ -153,13 +173,16 @@ Status record_pixel(const Surface& surface, const RecordOptions& options, const 
 
 Status record_vertex(const Surface& surface, const Work& work, ir::Program& program) {
     Recorder recorder(program.vertex);
-    const Vertex vertex = surface.vertex->transform();
+    const Vertex vertex = surface.vertex->transform(surface.lighting->lights);
     program.vertex.outputs = {{"position", ir::float4, ir::Semantic::Position},
                               {"uv", ir::float2, ir::Semantic::Interpolant},
-                              {"to_eye", ir::float3, ir::Semantic::Interpolant},
-                              {"to_light", ir::float3, ir::Semantic::Interpolant}};
-    std::vector<ir::ValueId> values = {vertex.position.id(), vertex.uv.id(), vertex.to_eye.id(),
-                                       vertex.to_light.id()};
+                              {"to_eye", ir::float3, ir::Semantic::Interpolant}};
+    std::vector<ir::ValueId> values = {vertex.position.id(), vertex.uv.id(), vertex.to_eye.id()};
+    for (std::size_t i = 0; i < vertex.to_lights.size(); ++i) {
+        program.vertex.outputs.push_back({name_of_light("to_light", static_cast<int>(i)),
+                                          ir::float3, ir::Semantic::Interpolant});
+        values.push_back(vertex.to_lights[i].id());
+    }
     if (surface.relief->ray_per_vertex == 1) {
         program.vertex.outputs.push_back({"reach", ir::float2, ir::Semantic::Interpolant});
         const float3 view = let("view", normalize(vertex.to_eye));
@@ -187,7 +210,8 @@ Status record_vertex(const Surface& surface, const Work& work, ir::Program& prog
 
 // The knobs of the techniques that a pass carries out.
 std::vector<std::string> settings_of(const Surface& surface, const Work& work) {
-    std::vector<const Technique*> used = {surface.vertex.get(), surface.relief.get()};
+    std::vector<const Technique*> used = {surface.vertex.get(), surface.relief.get(),
+                                          surface.lighting.get()};
     if (work.section >= 0) used.push_back(surface.search.get());
     if (work.shadow) used.push_back(surface.shadow.get());
     if (work.output && surface.output->shaded()) {
@@ -196,8 +220,7 @@ std::vector<std::string> settings_of(const Surface& surface, const Work& work) {
     }
     if (work.output) used.push_back(surface.output.get());
     std::vector<std::string> all;
-    for (const Technique* technique : used)
-        for (const KnobBase* knob : technique->knobs()) all.push_back(knob->setting());
+    for (const Technique* technique : used) add_settings(surface, *technique, all);
     return all;
 }
 
@@ -287,6 +310,14 @@ Result<ir::Program> record_pass(const Surface& surface, const RecordOptions& opt
                            fmt::format("there is no pass {}: this split has {}", pass,
                                        count == 1 ? "one" : fmt::format("1 to {}", count)));
     if (count == 1) return record_surface(surface, options);
+    const int shadowing = surface.lighting->shadowing();
+    if (split.shading && shadowing > 1 && surface.shadow->depends_on_light())
+        return input_error(
+            "split-lights",
+            fmt::format("the picture between the passes holds the shadow of one light, and {} has "
+                        "shadows of {}: split=shadow finds them beside the shading, and "
+                        "shadowed_lights=1 asks for one",
+                        surface.name, shadowing));
     // A loop that no pass has is an error, and one that another pass has is not.
     if (const auto whole = record_surface(surface, options); !whole) return whole.error();
     std::string description = surface.description;

@@ -43,7 +43,8 @@ int pass_count(const Split& split);
 std::string pass_work(const Split& split, int pass);
 
 // One pass, numbered from 1.  Errors: "split-pass" for a number out of range, "split-search" for
-// sections of a search that cannot say what it found, and those of record_surface.
+// sections of a search that cannot say what it found, "split-lights" for the shadows of several
+// lights before a pass that shades (the picture between holds one), and those of record_surface.
 Result<ir::Program> record_pass(const Surface& surface, const RecordOptions& options,
                                 const Split& split, int pass);
 // All of them, in order.

@@ -9,7 +9,8 @@
 namespace intaglio::dsl {
 
 std::vector<Technique*> Surface::techniques() const {
-    std::vector<Technique*> all = {vertex.get(), relief.get(), search.get(), shadow.get()};
+    std::vector<Technique*> all = {vertex.get(), relief.get(), lighting.get(), search.get(),
+                                   shadow.get()};
     if (output->shaded()) {
         all.push_back(normal.get());
         all.push_back(shading.get());
@@ -21,8 +22,8 @@ std::vector<Technique*> Surface::techniques() const {
 std::vector<KnobBase*> Surface::knobs() const {
     std::vector<KnobBase*> all;
     for (const Technique* technique : std::initializer_list<const Technique*>{
-             relief.get(), search.get(), shadow.get(), normal.get(), shading.get(), output.get(),
-             vertex.get()})
+             relief.get(), lighting.get(), search.get(), shadow.get(), normal.get(), shading.get(),
+             output.get(), vertex.get()})
         all.insert(all.end(), technique->knobs().begin(), technique->knobs().end());
     return all;
 }
@@ -39,8 +40,7 @@ Status Surface::set_knob(std::string_view knob_name, std::string_view value) {
 
 std::vector<std::string> Surface::settings() const {
     std::vector<std::string> all;
-    for (const Technique* technique : techniques())
-        for (const KnobBase* knob : technique->knobs()) all.push_back(knob->setting());
+    for (const Technique* technique : techniques()) add_settings(*this, *technique, all);
     return all;
 }
 

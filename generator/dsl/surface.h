@@ -3,6 +3,7 @@
 // McGuire 2005).
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <string>
@@ -43,6 +44,26 @@ class ReliefKnobs : public Technique {
         "1: pixels whose ray leaves the part of the map that uniform tile names are dropped"};
 };
 
+// By what a surface is lit.
+class LightKnobs : public Technique {
+  public:
+    Knob<int> lights{this,
+                     "lights",
+                     1,
+                     at_least{0},
+                     at_most{most_lights},
+                     "how many lights; none: ambient light alone"};
+    Knob<int> shadowed{this,
+                       "shadowed_lights",
+                       most_lights,
+                       at_least{0},
+                       at_most{most_lights},
+                       "the first so many lights throw shadows; what the others cannot, they "
+                       "need not search"};
+    // How many throw shadows.
+    int shadowing() const { return std::min(lights.value(), shadowed.value()); }
+};
+
 struct Surface {
     std::string name;         // "parallax_occlusion", or the composition as written
     std::string description;  // sentences with the sources
@@ -53,13 +74,15 @@ struct Surface {
     std::unique_ptr<Output> output;
     std::unique_ptr<VertexWork> vertex;
     std::unique_ptr<ReliefKnobs> relief = std::make_unique<ReliefKnobs>();
+    std::unique_ptr<LightKnobs> lighting = std::make_unique<LightKnobs>();
 
     // All techniques in the order of the work, and all their knobs.
     std::vector<Technique*> techniques() const;
     std::vector<KnobBase*> knobs() const;
     // Sets a knob by name; a sentence with the nearest name if there is none.
     Status set_knob(std::string_view knob_name, std::string_view value);
-    // "taps = 8" for each knob that this surface's output uses.
+    // "taps = 8" for each knob that this surface's output uses; of the lights those that are not as
+    // by default.
     std::vector<std::string> settings() const;
 };
 

@@ -25,6 +25,14 @@ Ray make_ray(const Surface& surface, const Relief& relief, float2 uv, float3 vie
     return {uv, view, input<2>("reach")};
 }
 
+void add_settings(const Surface& surface, const Technique& technique,
+                  std::vector<std::string>& settings) {
+    const bool is_lighting = &technique == surface.lighting.get();
+    if (&technique == surface.shadow.get() && surface.lighting->shadowing() == 0) return;
+    for (const KnobBase* knob : technique.knobs())
+        if (!is_lighting || knob->number() != knob->initial()) settings.push_back(knob->setting());
+}
+
 Status check_techniques(const Surface& surface) {
     for (const Technique* technique : surface.techniques())
         if (Status status = technique->check(); !status) return status;
@@ -47,7 +55,7 @@ float1 inside_tile(const Hit& hit) {
 }
 
 float3 shade(const Surface& surface, const Relief& relief, const Hit& hit, float2 uv, float3 view,
-             float3 light, float1 visibility) {
+             const std::vector<Light>& lights) {
     Step step("shading",
               "Shade the point with its own normal and colour, read where the ray met the relief.");
     const Footprint footprint{let("ddx_uv", ddx(uv)), let("ddy_uv", ddy(uv))};
@@ -55,8 +63,17 @@ float3 shade(const Surface& surface, const Relief& relief, const Hit& hit, float
     const sampler2D colour_map("colour_map", "albedo");
     const float3 albedo =
         let("albedo", colour_map.sample_grad(hit.uv, footprint.ddx_uv, footprint.ddy_uv).xyz());
-    return surface.shading->shade(
-        {normal, view, light, albedo, visibility, relief, hit, footprint});
+    const Fragment fragment{normal, view, albedo, relief, hit, footprint};
+    float3 diffuse = surface.shading->ambient(fragment);
+    std::optional<float3> specular;
+    for (const Light& light : lights) {
+        const Reflected reflected = surface.shading->reflect(fragment, light);
+        if (reflected.diffuse) diffuse = diffuse + *reflected.diffuse;
+        if (reflected.specular)
+            specular = specular ? *specular + *reflected.specular : *reflected.specular;
+    }
+    const float3 dimmed = albedo * diffuse;
+    return specular ? dimmed + *specular : dimmed;
 }
 
 }  // namespace intaglio::dsl

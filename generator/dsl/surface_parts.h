@@ -2,7 +2,9 @@
 // Internal to generator/dsl.
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "generator/dsl/surface.h"
 
@@ -14,6 +16,9 @@ float1 relief_scale();
 Relief make_relief(const Surface& surface);
 Ray make_ray(const Surface& surface, const Relief& relief, float2 uv, float3 view);
 
+// The knobs of one technique of the surface, as Surface::settings has them.
+void add_settings(const Surface& surface, const Technique& technique,
+                  std::vector<std::string>& settings);
 Status check_techniques(const Surface& surface);
 // Applies schedules and the caller's overrides; gives whether any schedule moves work to the vertex
 // stage.
@@ -24,6 +29,6 @@ float1 inside_tile(const Hit& hit);
 
 // The colour of the point that the ray met; `uv` is where the ray entered.
 float3 shade(const Surface& surface, const Relief& relief, const Hit& hit, float2 uv, float3 view,
-             float3 light, float1 visibility);
+             const std::vector<Light>& lights);
 
 }  // namespace intaglio::dsl

@@ -1,7 +1,9 @@
-// Relief and ray.
+// Relief, ray and lights.
 #include "generator/dsl/technique.h"
 
 #include <cmath>
+
+#include <fmt/format.h>
 
 namespace intaglio::dsl {
 
@@ -30,6 +32,18 @@ float1 Relief::in_whole(float1 in_section) const {
 
 float2 Ray::reach_of(float1 scale, float3 view) {
     return let("reach", view.xy() / max(view.z(), float1(least_z)) * scale);
+}
+
+std::string name_of_light(std::string_view name, int number) {
+    return number == 0 ? std::string(name) : fmt::format("{}_{}", name, number);
+}
+
+float3 Light::colour() const {
+    return uniform<3>(name_of_light("light_colour", number), "colour of the light, linear rgb");
+}
+
+float3 Shading::ambient(const Fragment&) const {
+    return uniform<3>("ambient", "ambient light, linear rgb");
 }
 
 }  // namespace intaglio::dsl

@@ -9,6 +9,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "generator/dsl/control.h"
 #include "generator/dsl/resources.h"
@@ -101,12 +103,25 @@ struct Footprint {
     float2 ddx_uv, ddy_uv;
 };
 
+// The most lights that a surface is lit by in one draw.
+inline constexpr int most_lights = 4;
+// What belongs to light `number`, from 0: "to_light" of the first, "to_light_2" of the third.
+std::string name_of_light(std::string_view name, int number);
+
+// One light at the point that the ray met.
+struct Light {
+    int number;         // from 0
+    float3 direction;   // unit, tangent space, to the light
+    float1 visibility;  // 0 in shadow, 1 lit
+
+    float3 colour() const;  // linear rgb
+};
+
 // What a shading model sees.  What it does not look at is not computed: a shading without normals
 // costs no normal read.
 struct Fragment {
-    float3 normal, view, light;  // unit, tangent space
+    float3 normal, view;  // unit, tangent space
     float3 albedo;
-    float1 visibility;  // of the light: 0 in shadow, 1 lit
     const Relief& relief;
     const Hit& hit;
     const Footprint& footprint;
@@ -123,6 +138,8 @@ class Search : public Technique {
 class Shadow : public Technique {
   public:
     virtual float1 visibility(const Relief& relief, const Hit& hit, float3 light) const = 0;
+    // Whether it looks at `light`: else it is asked once, for all lights.
+    virtual bool depends_on_light() const { return true; }
 };
 
 class NormalSource : public Technique {
@@ -132,9 +149,18 @@ class NormalSource : public Technique {
                           const Footprint& footprint) const = 0;
 };
 
+// What a point sends to the eye of one light.  Empty: nothing of the kind.
+struct Reflected {
+    std::optional<float3> diffuse = {};   // the albedo dims it
+    std::optional<float3> specular = {};  // it does not
+};
+
+// The colour is albedo * (ambient + the sum of diffuse) + the sum of specular, over all lights.
 class Shading : public Technique {
   public:
-    virtual float3 shade(const Fragment& fragment) const = 0;
+    // Light from everywhere; as a rule uniform `ambient`.
+    virtual float3 ambient(const Fragment& fragment) const;
+    virtual Reflected reflect(const Fragment& fragment, const Light& light) const = 0;
 };
 
 class Output : public Technique {
@@ -143,7 +169,7 @@ class Output : public Technique {
     virtual std::string name() const = 0;
     // True if the output needs the shaded colour; else only search and shadow are emitted.
     virtual bool shaded() const = 0;
-    // The value written; `colour` is 0 unless shaded().
+    // The value written; `visibility` is of the first light, `colour` is 0 unless shaded().
     virtual float4 write(const Hit& hit, float1 visibility, float3 colour) const = 0;
     // Depth of the point that the ray met, in [0, 1], for the depth buffer; empty: the polygon's
     // own.  What it is computed from the vertex stage must hand on: Vertex::depth_line.
@@ -155,7 +181,9 @@ class Output : public Technique {
 struct Vertex {
     float4 position;  // clip space
     float2 uv;
-    float3 to_eye, to_light;  // tangent space, any length: interpolated, then normalised per pixel
+    // Tangent space, any length: interpolated, then normalised per pixel.
+    float3 to_eye;
+    std::vector<float3> to_lights;  // by number
     // z and w of the position in clip space, and how they change from there to the eye (all of
     // to_eye): asked for by outputs that write depth.
     std::optional<float4> depth_line = {};
@@ -163,7 +191,8 @@ struct Vertex {
 
 class VertexWork : public Technique {
   public:
-    virtual Vertex transform() const = 0;
+    // `lights`: how many, 0 to most_lights.
+    virtual Vertex transform(int lights) const = 0;
 };
 
 }  // namespace intaglio::dsl

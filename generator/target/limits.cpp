@@ -124,8 +124,23 @@ Status check_outputs(const ir::Module& module, const Target& target) {
     return Done{};
 }
 
+Status check_interpolants(const ir::Module& module, const Target& target) {
+    if (module.stage != ir::Stage::Pixel) return Done{};
+    const auto count = std::count_if(
+        module.inputs.begin(), module.inputs.end(),
+        [](const ir::Declaration& input) { return input.semantic == ir::Semantic::Interpolant; });
+    if (count <= target.capabilities.interpolants.count) return Done{};
+    return hinted(
+        target_limit(
+            module, {},
+            fmt::format("{} takes {} values from the vertex stage; {} can pass {}", module.name,
+                        count, target.name, target.capabilities.interpolants.count)),
+        "each light is one of them, and so are ray_per_vertex=1 and an output with depth");
+}
+
 Status check_limits(ir::Module& module, const Target& target, Notes&) {
     if (Status status = check_outputs(module, target); !status) return status;
+    if (Status status = check_interpolants(module, target); !status) return status;
     const auto targets = std::count_if(
         module.outputs.begin(), module.outputs.end(),
         [](const ir::Declaration& output) { return output.semantic == ir::Semantic::Target; });

@@ -61,9 +61,14 @@ void add_view(CLI::App& command, ViewOptions& options) {
                     "Of the eye, degrees above the surface or horizon")
         ->capture_default_str();
     command.add_option("--azimuth", options.azimuth, "Of the eye, degrees")->capture_default_str();
-    command.add_option("--light-elevation", options.light_elevation, "Degrees")
-        ->capture_default_str();
-    command.add_option("--light-azimuth", options.light_azimuth, "Degrees")->capture_default_str();
+    const auto add_lights = [&](const char* name, std::vector<double>& values) {
+        command.add_option(name, values, "Degrees; of several lights 45,30 (or repeatable)")
+            ->delimiter(',')
+            ->allow_extra_args(false)
+            ->capture_default_str();
+    };
+    add_lights("--light-elevation", options.light_elevation);
+    add_lights("--light-azimuth", options.light_azimuth);
     command.add_option("--device", options.device,
                        "Part of a Vulkan device's name; lavapipe if not given");
 }

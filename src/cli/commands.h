@@ -11,6 +11,7 @@
 #include "generator/base/result.h"
 #include "generator/dsl/catalogue.h"
 #include "src/measure/map_set.h"
+#include "src/measure/view.h"
 #include "src/variant/variant.h"
 
 namespace intaglio::cli {
@@ -156,9 +157,16 @@ struct PassOptions {
 
 // From where a surface is seen and lit, in degrees, and what draws it.
 struct ViewOptions {
-    double elevation = 40, azimuth = 250, light_elevation = 45, light_azimuth = 20;
+    double elevation = 40, azimuth = 250;
+    // By light; of those not said measure::Look decides.
+    std::vector<double> light_elevation = {45}, light_azimuth = {20};
     std::string device = {};  // part of a Vulkan device's name; empty: lavapipe
+
+    measure::Direction light() const { return {light_elevation.at(0), light_azimuth.at(0)}; }
+    measure::Look look() const;
 };
+// Elevations from -90 to 90, finite azimuths, and no more lights than the surface has.
+Status check_view(const ViewOptions& view, const VariantRequest& request);
 
 struct RunOptions {
     VariantOptions variant;

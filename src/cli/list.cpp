@@ -42,15 +42,18 @@ ordered_json techniques(const dsl::Catalogue& catalogue) {
     describe_table(list, "shading", catalogue.shadings);
     describe_table(list, "output", catalogue.outputs);
     describe_table(list, "vertex", catalogue.vertex_works);
-    ordered_json relief = {{"part", "relief"},
-                           {"name", "relief"},
-                           {"summary", "How every technique of a surface reads the heights"},
-                           {"source", ""},
-                           {"knobs", ordered_json::array()}};
-    const dsl::ReliefKnobs relief_knobs;
-    for (const dsl::KnobBase* knob : relief_knobs.knobs())
-        relief["knobs"].push_back(describe(*knob));
-    list.push_back(std::move(relief));
+    const auto add_shared = [&](const char* name, const char* summary,
+                                const dsl::Technique& technique) {
+        ordered_json row = {{"part", name},
+                            {"name", name},
+                            {"summary", summary},
+                            {"source", ""},
+                            {"knobs", ordered_json::array()}};
+        for (const dsl::KnobBase* knob : technique.knobs()) row["knobs"].push_back(describe(*knob));
+        list.push_back(std::move(row));
+    };
+    add_shared("relief", "How every technique of a surface reads the heights", dsl::ReliefKnobs());
+    add_shared("lights", "By what a surface is lit", dsl::LightKnobs());
     return list;
 }
 
@@ -61,7 +64,7 @@ std::string number(const ordered_json& value) {
 std::string techniques_text(const dsl::Catalogue& catalogue) {
     std::string text;
     for (const ordered_json& row : techniques(catalogue))
-        if (row["part"] != "relief")
+        if (row["part"] != "relief" && row["part"] != "lights")
             text += fmt::format(
                 "{:<8} {:<20} {}{}\n", row["part"].get<std::string>(),
                 row["name"].get<std::string>(), row["summary"].get<std::string>(),

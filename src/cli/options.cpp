@@ -117,6 +117,41 @@ Result<VariantRequest> request_of(const VariantOptions& options) {
     return request;
 }
 
+measure::Look ViewOptions::look() const {
+    measure::Look look;
+    for (std::size_t i = 0; i < look.further.size(); ++i) {
+        measure::Direction& direction = look.further[i].direction;
+        if (i + 1 < light_elevation.size()) direction.elevation = light_elevation[i + 1];
+        if (i + 1 < light_azimuth.size()) direction.azimuth = light_azimuth[i + 1];
+    }
+    return look;
+}
+
+Status check_view(const ViewOptions& view, const VariantRequest& request) {
+    std::vector<double> azimuths = view.light_azimuth, elevations = view.light_elevation;
+    const std::size_t given = std::max(azimuths.size(), elevations.size());
+    azimuths.push_back(view.azimuth);
+    elevations.push_back(view.elevation);
+    for (const double azimuth : azimuths)
+        if (!std::isfinite(azimuth))
+            return input_error(
+                "option-value",
+                fmt::format("an azimuth is a number of degrees; {} is not", azimuth));
+    for (const double elevation : elevations)
+        if (!(elevation >= -90 && elevation <= 90))
+            return input_error(
+                "option-value",
+                fmt::format("an elevation is -90 to 90 degrees; {} is not", elevation));
+    int lights = 1;
+    for (const auto& [name, value] : request.knobs)
+        if (name == "lights") std::from_chars(value.data(), value.data() + value.size(), lights);
+    if (given > 1 && static_cast<int>(given) > lights)
+        return input_error("option-value",
+                           fmt::format("{} lights are aimed and the surface has {}: -D lights={}",
+                                       given, lights, given));
+    return Done{};
+}
+
 Result<Size> parse_size(const std::string& text) {
     const auto bad = [&] {
         return input_error(

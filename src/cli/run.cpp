@@ -39,16 +39,6 @@ Status check_options(const RunOptions& options) {
     if (!options.error_map.empty() && options.mesh != "map")
         return input_error("option-value",
                            "--error-map needs --mesh map: the reference knows flat reliefs");
-    for (double azimuth : {options.view.azimuth, options.view.light_azimuth})
-        if (!std::isfinite(azimuth))
-            return input_error(
-                "option-value",
-                fmt::format("an azimuth is a number of degrees; {} is not", azimuth));
-    for (double elevation : {options.view.elevation, options.view.light_elevation})
-        if (!(elevation >= -90 && elevation <= 90))
-            return input_error(
-                "option-value",
-                fmt::format("an elevation is -90 to 90 degrees; {} is not", elevation));
     if (!(options.distance >= 0) || !std::isfinite(options.distance) || !(options.repeat > 0) ||
         !std::isfinite(options.repeat))
         return input_error("option-value", "--distance and --repeat are positive numbers");
@@ -149,7 +139,7 @@ Result<measure::MeshView> mesh_view(const RunOptions& options, Size size, vulkan
     for (std::size_t i = 0; i < 3; ++i)
         eye[i] = target[i] + static_cast<float>(distance * to_eye[i]);
     const std::array<double, 3> to_light =
-        exact(options.view.light_elevation, options.view.light_azimuth);
+        exact(options.view.light().elevation, options.view.light().azimuth);
     for (std::size_t i = 0; i < 3; ++i) view.light[i] = static_cast<float>(to_light[i]);
     vulkan::Perspective perspective;
     perspective.aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
@@ -171,7 +161,8 @@ Status check_validation(const vulkan::Device& device) {
 measure::Shot shot_of(const RunOptions& options, Size size) {
     measure::Shot shot;
     shot.view = {options.view.elevation, options.view.azimuth};
-    shot.light = {options.view.light_elevation, options.view.light_azimuth};
+    shot.light = options.view.light();
+    shot.look = options.view.look();
     shot.scale = options.map.scale;
     shot.width = size.width;
     shot.height = size.height;
@@ -184,7 +175,7 @@ measure::PreparePass prepare_on_mesh(const vulkan::Device& device,
                                      const measure::MeshView& view, Size size) {
     return [&, size](const check::Program& shaders, const measure::PassLink& link) {
         return measure::prepare_mesh(device, shaders, textures, options.map.scale, size.width,
-                                     size.height, view, {}, link);
+                                     size.height, view, options.view.look(), link);
     };
 }
 
@@ -194,7 +185,7 @@ measure::PreparePass prepare_below_map(const vulkan::Device& device,
                                        const vulkan::Mesh& mesh) {
     return [&](const check::Program& shaders, const measure::PassLink& link) {
         return measure::prepare_parallel(device, shaders, textures, shot.scale, shot.width,
-                                         shot.height, mesh, shot.view, shot.light, link);
+                                         shot.height, mesh, shot.view, shot.light, link, shot.look);
     };
 }
 
@@ -260,11 +251,12 @@ Status print_format_error(const dsl::Catalogue& catalogue, const measure::SplitD
 
 Status run(const dsl::Catalogue& techniques, const RunOptions& options) {
     if (Status status = check_options(options); !status) return status;
+    Result<VariantRequest> request = request_of(options.variant);
+    if (!request) return request.error();
+    if (Status status = check_view(options.view, *request); !status) return status;
     if (is_case(options)) return run_case(techniques, options);
     const bool polygon = options.geometry == "polygon";
     const dsl::Catalogue catalogue = polygon ? techniques : measure::with_geometry(techniques);
-    Result<VariantRequest> request = request_of(options.variant);
-    if (!request) return request.error();
     request = request_on(options, std::move(*request));
     const Result<Size> size = parse_size(options.size);
     if (!size) return size.error();

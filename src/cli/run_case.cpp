@@ -37,6 +37,10 @@ Result<measure::Case> case_of(const RunOptions& options) {
         return input_error("option-value",
                            "--arithmetic and --pixel are of a whole map in one pass: --mesh map "
                            "and neither --geometry nor --split");
+    if (options.view.light_elevation.size() > 1 || options.view.light_azimuth.size() > 1)
+        return input_error("option-value",
+                           "--arithmetic and --pixel aim the first light alone: give one "
+                           "--light-elevation and --light-azimuth");
     const Result<Size> size = parse_size(options.size);
     if (!size) return size.error();
     if (size->width != size->height)
@@ -48,14 +52,10 @@ Result<measure::Case> case_of(const RunOptions& options) {
     if (!filtering) return filtering.error();
     const Result<measure::Arithmetic> arithmetic = measure::arithmetic_named(options.arithmetic);
     if (!arithmetic) return arithmetic.error();
-    return measure::Case{std::move(*request),
-                         {options.view.elevation, options.view.azimuth},
-                         {options.view.light_elevation, options.view.light_azimuth},
-                         options.map.scale,
-                         size->width,
-                         *filtering,
-                         *arithmetic,
-                         0};
+    return measure::Case{std::move(*request),  {options.view.elevation, options.view.azimuth},
+                         options.view.light(), options.map.scale,
+                         size->width,          *filtering,
+                         *arithmetic,          0};
 }
 
 void print_pixel(const measure::WorstPixel& pixel) {

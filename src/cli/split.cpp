@@ -47,6 +47,7 @@ void print_formats(const VariantRequest& request, const std::vector<measure::For
 Status split_table(const dsl::Catalogue& catalogue, const SplitOptions& options) {
     const Result<VariantRequest> request = request_of(options.variant);
     if (!request) return request.error();
+    if (Status status = check_view(options.view, *request); !status) return status;
     if (dsl::pass_count(request->split) == 1)
         return input_error("option-value",
                            "--split is missing: shading, shadow, sections=3, or several by commas");
@@ -60,7 +61,8 @@ Status split_table(const dsl::Catalogue& catalogue, const SplitOptions& options)
     const measure::Textures textures(*set, *filtering);
     measure::Shot shot;
     shot.view = {options.view.elevation, options.view.azimuth};
-    shot.light = {options.view.light_elevation, options.view.light_azimuth};
+    shot.light = options.view.light();
+    shot.look = options.view.look();
     shot.scale = options.map.scale;
     shot.width = shot.height = options.size;
     const Result<std::vector<measure::FormatError>> errors = measure::shot_formats(

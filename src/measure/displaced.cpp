@@ -98,11 +98,11 @@ Result<vulkan::Program> prepare_parallel(const vulkan::Device& device,
                                          const check::Program& shaders, const Textures& textures,
                                          double scale, int width, int height,
                                          const vulkan::Mesh& mesh, Direction view, Direction light,
-                                         const PassLink& link) {
+                                         const PassLink& link, const Look& look) {
     const Result<vulkan::Camera> camera = parallel_camera(view, scale);
     if (!camera) return camera.error();
     Result<vulkan::Program> program = prepare_mesh(device, shaders, textures, scale, width, height,
-                                                   {mesh, *camera, vector_of(light)}, {}, link);
+                                                   {mesh, *camera, vector_of(light)}, look, link);
     if (!program) return program;
     if (Status status = aim(*program, view, light); !status) return status.error();
     return program;

@@ -44,7 +44,7 @@ Result<vulkan::Program> prepare_parallel(const vulkan::Device& device,
                                          const check::Program& shaders, const Textures& textures,
                                          double scale, int width, int height,
                                          const vulkan::Mesh& mesh, Direction view, Direction light,
-                                         const PassLink& link = {});
+                                         const PassLink& link = {}, const Look& look = {});
 
 // How far a view ray travels over the map, in texture units along either axis: how much wider than
 // the picture the mesh must be on each side.

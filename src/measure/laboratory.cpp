@@ -71,6 +71,26 @@ vulkan::Picture exact_hits(const ExactPicture& exact) {
 // From which pass on a surface is drawn at hits that are given.
 enum class From { Shadow, Shading };
 
+// Whether the surface asks for the shadows of several lights: the picture between passes, which
+// takes the shadow where it is exact or in another arithmetic, holds one.
+bool has_several_shadows(const dsl::Catalogue& catalogue, const VariantRequest& request) {
+    Result<dsl::Surface> surface = dsl::make_surface(catalogue, request.surface);
+    if (!surface) return false;
+    for (const auto& [name, value] : request.knobs)
+        if (!surface->set_knob(name, value)) return false;
+    return surface->lighting->shadowing() > 1 && surface->shadow->depends_on_light();
+}
+
+// The same surface under the shadow that misses nothing.
+VariantRequest with_exact_shadow(const dsl::Catalogue& catalogue, VariantRequest request) {
+    request.surface = dsl::with_part(request.surface, "shadow", "exact");
+    if (Result<dsl::Surface> surface = dsl::make_surface(catalogue, request.surface))
+        std::erase_if(request.knobs, [&](const auto& knob) {
+            return !surface->set_knob(knob.first, knob.second);
+        });
+    return request;
+}
+
 Result<check::Program> pass_after_search(const dsl::Catalogue& catalogue,
                                          const VariantRequest& request) {
     const Result<Variant> variant = make_variant(catalogue, request);
@@ -271,7 +291,9 @@ Result<vulkan::Picture> Laboratory::State::shade(const Case& what, const vulkan:
 }
 
 Result<vulkan::Picture> Laboratory::State::draw_shaded(const Case& what, const CaseHits& hits) {
-    if (hits.maker == Maker::Evaluator) return shade(what, hits.picture, From::Shading);
+    if (hits.maker == Maker::Evaluator)
+        return shade(what, hits.picture,
+                     has_several_shadows(catalogue, what.request) ? From::Shadow : From::Shading);
     if (hits.maker == Maker::Interpreter) {
         Result<InterpretedPicture> drawn =
             bench.shaded_bytecode->draw(what.view, what.light, unit_of(what.arithmetic), threads);
@@ -286,10 +308,13 @@ Result<vulkan::Picture> Laboratory::State::draw_shaded(const Case& what, const C
 
 std::shared_ptr<const Result<vulkan::Picture>> Laboratory::State::exact_picture(
     const Case& what, const CaseMap& map, const ExactPicture& exact_hits_there) {
-    const From from = bench.evaluated->sees_light() ? From::Shading : From::Shadow;
+    const bool several = has_several_shadows(catalogue, what.request);
+    const From from = bench.evaluated->sees_light() && !several ? From::Shading : From::Shadow;
+    Case shaded = what;
+    if (several) shaded.request = with_exact_shadow(catalogue, what.request);
     // Surfaces that differ in their search alone share the picture: the pass behind the search is
     // recorded, and tells.
-    VariantRequest request = what.request;
+    VariantRequest request = shaded.request;
     request.target = "glsl_450";
     request.loop_forms.clear();
     request.split = {1, from == From::Shadow, from == From::Shading};
@@ -301,7 +326,7 @@ std::shared_ptr<const Result<vulkan::Picture>> Laboratory::State::exact_picture(
         fmt::format("{} {} {} {} {} {}", map_key(what, map), what.view.elevation, what.view.azimuth,
                     what.light.elevation, what.light.azimuth, ir::print(pass->program.pixel));
     return shared->exact_pictures.get(
-        key, [&] { return shade(what, exact_hits(exact_hits_there), from); });
+        key, [&] { return shade(shaded, exact_hits(exact_hits_there), from); });
 }
 
 // The hits of the split's rays in the arithmetic of the case.

@@ -22,7 +22,7 @@ constexpr float far_away = 1e6f, tile_edge = 1e5f;
 
 class ShellVertex : public VertexWork {
   public:
-    Vertex transform() const override {
+    Vertex transform(int lights) const override {
         Step step("vertex", "View and light in the tangent frame; the light as long as the layer.");
         const float3 position = input<3>("position"), normal = input<3>("normal");
         const float4 tangent_and_layer = input<4>("tangent");
@@ -45,8 +45,14 @@ class ShellVertex : public VertexWork {
         const float4 eye_direction = let("eye_direction", float4(to_eye, 0.0f));
         const float4 clip(dot(row(0), place), dot(row(1), place), dot(row(2), place),
                           dot(row(3), place));
-        return {clip, input<2>("uv"), to_tangent_space(to_eye),
-                normalize(to_tangent_space(direction_to("light"))) * layer,
+        const float2 uv = input<2>("uv");
+        const float3 to_eye_here = to_tangent_space(to_eye);
+        // The first light's vector is there without lights too: it carries the layer.
+        std::vector<float3> to_lights = {normalize(to_tangent_space(direction_to("light"))) *
+                                         layer};
+        for (int number = 1; number < lights; ++number)
+            to_lights.push_back(to_tangent_space(direction_to(name_of_light("light", number))));
+        return {clip, uv, to_eye_here, std::move(to_lights),
                 float4(clip.zw(), dot(row(2), eye_direction), dot(row(3), eye_direction))};
     }
 };

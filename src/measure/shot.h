@@ -18,6 +18,7 @@ struct Shot {
     // texture units; 0: as the view needs.
     vulkan::Texture::Format format = vulkan::Texture::Format::Rgba32Float;
     double range = 0;
+    Look look = {};
 };
 
 // The variant's first colour target; of a split surface that of its last pass.

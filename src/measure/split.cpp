@@ -212,8 +212,8 @@ Result<std::vector<FormatError>> compare_formats(const dsl::Catalogue& catalogue
 
 PreparePass prepare_shot(const vulkan::Device& device, const Textures& textures, const Shot& shot) {
     return [&](const check::Program& shaders, const PassLink& link) -> Result<vulkan::Program> {
-        Result<vulkan::Program> program =
-            prepare_quad(device, shaders, textures, shot.scale, shot.width, shot.height, {}, link);
+        Result<vulkan::Program> program = prepare_quad(device, shaders, textures, shot.scale,
+                                                       shot.width, shot.height, shot.look, link);
         if (!program) return program;
         if (Status status = aim(*program, shot.view, shot.light); !status) return status.error();
         return program;

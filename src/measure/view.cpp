@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "generator/dsl/technique.h"
 #include "src/vulkan/camera.h"
 
 namespace intaglio::measure {
@@ -31,7 +32,7 @@ std::map<std::string, std::vector<float>> uniforms_of(Direction view, Direction 
     const std::array<float, 3> v = vector_of(view);
     const std::array<float, 3> l = vector_of(light);
     const vulkan::Camera camera = vulkan::map_quad();
-    return {
+    std::map<std::string, std::vector<float>> uniforms = {
         {"world", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}},
         {"view_projection", {camera.view_projection.begin(), camera.view_projection.end()}},
         {"eye", {v[0], v[1], v[2], 0}},
@@ -45,6 +46,15 @@ std::map<std::string, std::vector<float>> uniforms_of(Direction view, Direction 
         {"tile", {0, 0, 1, 1}},
         {"texture_span", {1}},
     };
+    for (std::size_t i = 0; i < look.further.size(); ++i) {
+        const FurtherLight& further = look.further[i];
+        const std::array<float, 3> to_light = vector_of(further.direction);
+        const int number = static_cast<int>(i) + 1;
+        uniforms[dsl::name_of_light("light", number)] = {to_light[0], to_light[1], to_light[2], 0};
+        uniforms[dsl::name_of_light("light_colour", number)] = {further.colour.begin(),
+                                                                further.colour.end()};
+    }
+    return uniforms;
 }
 
 }  // namespace intaglio::measure

@@ -22,11 +22,20 @@ struct Direction {
 std::array<float, 3> vector_of(Direction direction);
 reference::Vec3 exact_vector(const std::array<float, 3>& vector);
 
+// A light after the first; the first is aimed by whoever draws.
+struct FurtherLight {
+    Direction direction;
+    std::array<float, 3> colour;
+};
+
 // The lights and material of every draw.
 struct Look {
     std::array<float, 3> ambient = {0.25f, 0.27f, 0.33f};
     std::array<float, 3> light_colour = {2.0f, 1.92f, 1.76f};
     float gloss = 0.25f;
+    std::array<FurtherLight, 3> further = {{{{30, 255}, {0.35f, 0.5f, 0.9f}},
+                                            {{60, 15}, {0.8f, 0.35f, 0.2f}},
+                                            {{20, 90}, {0.3f, 0.7f, 0.35f}}}};
 };
 
 // Values for every uniform of the templates, by name: the eye and the light at infinity, the world

@@ -208,10 +208,13 @@ Result<std::string> live_data(const dsl::Catalogue& catalogue, const LiveOptions
         if (!json) return json.error();
         maps.push_back(std::move(*json));
     }
+    auto values = measure::uniforms_of({}, {}, options.scale, 1, 1, options.look);
+    // The page's surfaces have one light.
+    for (int number = 1; number < dsl::most_lights; ++number)
+        for (const char* name : {"light", "light_colour"})
+            values.erase(dsl::name_of_light(name, number));
     Json uniforms = Json::object();
-    for (const auto& [name, values] :
-         measure::uniforms_of({}, {}, options.scale, 1, 1, options.look))
-        uniforms[name] = values;
+    for (const auto& [name, value] : values) uniforms[name] = value;
     Json all = Json::object();
     all["techniques"] = techniques_json(catalogue, *variants);
     all["shadows"] = shadows_json(catalogue, options);

@@ -139,6 +139,9 @@ std::vector<Setting> all_settings(const dsl::Catalogue& catalogue) {
     const Setting relief{"relief", "search=parallax_occlusion,output=displaced", {}};
     settings.push_back(relief);
     add_knobs(catalogue, settings, relief, dsl::ReliefKnobs().knobs());
+    const Setting lights{"lights", "search=none,shadow=horizon", {}};
+    settings.push_back(lights);
+    add_knobs(catalogue, settings, lights, dsl::LightKnobs().knobs());
     for (const dsl::Preset& preset : catalogue.presets)
         settings.push_back({"preset " + preset.name, preset.name, {}});
     return settings;

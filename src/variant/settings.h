@@ -29,8 +29,9 @@ struct Setting {
 
 // By part, technique and knob in the order of the catalogue.  Searches and shadows come as
 // output=displaced, searches once more with their shading; the knobs of the relief with a search
-// that they all concern.  Not listed: values that are the default's, and settings that record the
-// same program as the default, because nothing depends on the knob there.
+// that they all concern, those of the lights with a shadow.  Not listed: values that are the
+// default's, and settings that record the same program as the default, because nothing depends on
+// the knob there.
 std::vector<Setting> all_settings(const dsl::Catalogue& catalogue);
 
 // What a Direct3D 9 profile makes of a setting.

@@ -10,9 +10,7 @@ using namespace dsl;
 
 class AmbientOnly : public Shading {
   public:
-    float3 shade(const Fragment& fragment) const override {
-        return fragment.albedo * uniform<3>("ambient", "ambient light, linear rgb");
-    }
+    Reflected reflect(const Fragment&, const Light&) const override { return {}; }
 };
 
 }  // namespace

@@ -20,9 +20,8 @@ class Emboss : public Shading {
         1.0f,          at_least{0.125},
         at_most{64.0}, "texels between the two heights, for a light at the horizon"};
 
-    float3 shade(const Fragment& fragment) const override {
-        const float3 ambient = uniform<3>("ambient", "ambient light, linear rgb");
-        const float3 light_colour = uniform<3>("light_colour", "colour of the light, linear rgb");
+    Reflected reflect(const Fragment& fragment, const Light& light) const override {
+        const float3 colour = light.colour();
         const Relief& relief = fragment.relief;
         const auto height = [&](float2 uv) {
             return relief.height_of(
@@ -31,12 +30,12 @@ class Emboss : public Shading {
         const float1 per_unit = let(
             "per_unit", max(relief.map_size.x(), relief.map_size.y()) * (1.0f / distance.value()));
         const float2 towards_light =
-            let("towards_light", fragment.hit.uv + fragment.light.xy() / per_unit);
+            let("towards_light", fragment.hit.uv + light.direction.xy() / per_unit);
         const float1 fall = let("fall", height(fragment.hit.uv) - height(towards_light));
         const float1 slope = let("slope", fall * (relief.scale * per_unit));
-        const float1 diffuse = let("diffuse", select(fragment.light.z() > 0.0f,
-                                                     saturate(fragment.light.z() + slope), 0.0f));
-        return fragment.albedo * (ambient + light_colour * (diffuse * fragment.visibility));
+        const float1 diffuse = let("diffuse", select(light.direction.z() > 0.0f,
+                                                     saturate(light.direction.z() + slope), 0.0f));
+        return {colour * (diffuse * light.visibility)};
     }
 };
 

@@ -9,11 +9,10 @@ using namespace dsl;
 
 class Lambert : public Shading {
   public:
-    float3 shade(const Fragment& fragment) const override {
-        const float3 ambient = uniform<3>("ambient", "ambient light, linear rgb");
-        const float3 light_colour = uniform<3>("light_colour", "colour of the light, linear rgb");
-        const float1 diffuse = let("diffuse", saturate(dot(fragment.normal, fragment.light)));
-        return fragment.albedo * (ambient + light_colour * (diffuse * fragment.visibility));
+    Reflected reflect(const Fragment& fragment, const Light& light) const override {
+        const float3 colour = light.colour();
+        const float1 diffuse = let("diffuse", saturate(dot(fragment.normal, light.direction)));
+        return {colour * (diffuse * light.visibility)};
     }
 };
 

@@ -13,22 +13,21 @@ class Phong : public Shading {
     Knob<float> shininess{this,        "shininess",  32.0f,
                           at_least{1}, at_most{256}, "exponent of the highlight"};
 
-    float3 shade(const Fragment& fragment) const override {
-        const float3 ambient = uniform<3>("ambient", "ambient light, linear rgb");
-        const float3 light_colour = uniform<3>("light_colour", "colour of the light, linear rgb");
+    Reflected reflect(const Fragment& fragment, const Light& light) const override {
+        const float3 colour = light.colour();
         const float1 gloss = uniform<1>("gloss", "strength of the highlight");
 
-        const float1 diffuse = let("diffuse", saturate(dot(fragment.normal, fragment.light)));
+        const float1 diffuse = let("diffuse", saturate(dot(fragment.normal, light.direction)));
         const float3 halfway =
-            let("halfway", normalize(let("between", fragment.light + fragment.view)));
+            let("halfway", normalize(let("between", light.direction + fragment.view)));
         // pow(0, y) is 0 or NaN by device: the least base is a power that rounds to nothing on
         // screen.
         const float1 highlight =
             let("highlight", pow(max(dot(fragment.normal, halfway), 1e-4f), shininess.value()));
         // No highlight on the side that faces away.
         const float1 specular = let("specular", select(diffuse > 0.0f, gloss * highlight, 0.0f));
-        return fragment.albedo * (ambient + light_colour * (diffuse * fragment.visibility)) +
-               light_colour * (specular * fragment.visibility);
+        const float3 highlights = colour * (specular * light.visibility);
+        return {colour * (diffuse * light.visibility), highlights};
     }
 };
 

@@ -22,22 +22,21 @@ class PhongMap : public Shading {
     Knob<float> shininess{this,        "shininess",  32.0f,
                           at_least{1}, at_most{256}, "exponent of the highlight, as baked"};
 
-    float3 shade(const Fragment& fragment) const override {
-        const float3 ambient = uniform<3>("ambient", "ambient light, linear rgb");
-        const float3 light_colour = uniform<3>("light_colour", "colour of the light, linear rgb");
+    Reflected reflect(const Fragment& fragment, const Light& light) const override {
+        const float3 colour = light.colour();
         const float1 gloss = uniform<1>("gloss", "strength of the highlight");
         const sampler2D map("phong_map", "diffuse light in red, highlight in alpha, by offset",
                             sampler2D::Filter::Linear,
                             fmt::format("shininess={}", shininess.value()));
 
         const float3 halfway =
-            let("halfway", normalize(let("between", fragment.light + fragment.view)));
+            let("halfway", normalize(let("between", light.direction + fragment.view)));
         const float2 offset = let("offset", fragment.normal.xy() - halfway.xy());
         const float4 brightness =
             let("brightness", map.sample_level(saturate(offset * (0.5f / edge) + 0.5f), 0.0f));
-        const float1 facing = select(fragment.light.z() > 0.0f, fragment.visibility, 0.0f);
-        return fragment.albedo * (ambient + light_colour * (brightness.x() * facing)) +
-               light_colour * (gloss * brightness.w() * facing);
+        const float1 facing = select(light.direction.z() > 0.0f, light.visibility, 0.0f);
+        const float3 highlights = colour * (gloss * brightness.w() * facing);
+        return {colour * (brightness.x() * facing), highlights};
     }
 };
 

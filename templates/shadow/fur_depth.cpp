@@ -16,6 +16,7 @@ class FurDepth : public Shadow {
     float1 visibility(const Relief&, const Hit& hit, float3) const override {
         return lerp(float1(root_light.value()), 1.0f, hit.height);
     }
+    bool depends_on_light() const override { return false; }
 };
 
 }  // namespace

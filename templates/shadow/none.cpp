@@ -9,6 +9,7 @@ using namespace dsl;
 class None : public Shadow {
   public:
     float1 visibility(const Relief&, const Hit&, float3) const override { return 1.0f; }
+    bool depends_on_light() const override { return false; }
 };
 
 }  // namespace

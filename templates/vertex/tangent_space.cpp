@@ -17,7 +17,7 @@ float3 transform_rows(std::string_view name, float4 point, std::string_view comm
 
 class TangentSpace : public VertexWork {
   public:
-    Vertex transform() const override {
+    Vertex transform(int lights) const override {
         const std::string_view world = "world", world_comment = "object to world: three rows";
         Step step("vertex", "View and light vectors in the vertex's tangent frame.");
         const auto to_world = [&](std::string_view name, float4 v) {
@@ -41,10 +41,17 @@ class TangentSpace : public VertexWork {
         const auto direction_to = [&](float4 place) { return place.xyz() - position * place.w(); };
         const float4 eye =
             uniform<4>("eye", "eye in world space: w = 1 a point, w = 0 a direction");
-        const float4 light =
-            uniform<4>("light", "light in world space: w = 1 a point, w = 0 a direction");
+        std::vector<float4> light_places;
+        for (int number = 0; number < lights; ++number)
+            light_places.push_back(
+                uniform<4>(name_of_light("light", number),
+                           "light in world space: w = 1 a point, w = 0 a direction"));
         const float3 world_to_eye = let("world_to_eye", direction_to(eye));
-        const float3 world_to_light = let("world_to_light", direction_to(light));
+        std::vector<float3> world_to_lights;
+        for (int number = 0; number < lights; ++number)
+            world_to_lights.push_back(
+                let(name_of_light("world_to_light", number),
+                    direction_to(light_places[static_cast<std::size_t>(number)])));
 
         const float4 place = let("place", float4(position, 1.0f));
         const auto row = [](int i) {
@@ -53,9 +60,13 @@ class TangentSpace : public VertexWork {
         const float4 position_in_clip(dot(row(0), place), dot(row(1), place), dot(row(2), place),
                                       dot(row(3), place));
         const float4 eye_direction = let("eye_direction", float4(world_to_eye, 0.0f));
+        const float2 uv = input<2>("uv");
+        const float3 to_eye = to_tangent_space(world_to_eye);
+        std::vector<float3> to_lights;
+        for (const float3& world_to_light : world_to_lights)
+            to_lights.push_back(to_tangent_space(world_to_light));
         return {
-            position_in_clip, input<2>("uv"), to_tangent_space(world_to_eye),
-            to_tangent_space(world_to_light),
+            position_in_clip, uv, to_eye, std::move(to_lights),
             float4(position_in_clip.zw(), dot(row(2), eye_direction), dot(row(3), eye_direction))};
     }
 };

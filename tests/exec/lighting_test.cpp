@@ -54,6 +54,25 @@ TEST(Lighting, EveryTargetDrawsWhatGlsl450Draws) {
     }
 }
 
+TEST(Lighting, SeveralLightsAreTheSameOnEveryTarget) {
+    const measure::MapSet bricks = map_named("bricks");
+    const std::string surface = "parallax_occlusion,shadow=march";
+    vulkan::Picture before = draw(request(surface, "glsl_450"), bricks, {40, 25}, light)[0];
+    for (const Knobs& knobs :
+         {Knobs{{"lights", "2"}}, Knobs{{"lights", "4"}, {"shadowed_lights", "1"}},
+          Knobs{{"lights", "0"}}}) {
+        const vulkan::Picture expected =
+            draw(request(surface, "glsl_450", knobs), bricks, {40, 25}, light)[0];
+        EXPECT_GT(count_apart(expected, before, 1e-3f), 1000) << "another light changes it";
+        for (const char* target : {"glsl_330", "hlsl_5_0", "hlsl_3_0", "spirv"}) {
+            SCOPED_TRACE(knobs[0].second + " lights on " + target);
+            EXPECT_TRUE(same_bits(
+                expected, draw(request(surface, target, knobs), bricks, {40, 25}, light)[0]));
+        }
+        before = expected;
+    }
+}
+
 TEST(Lighting, NoPixelIsNanOrInfinite) {
     for (const char* maker : {"spikes", "flat0", "flat1"}) {
         const measure::MapSet set = map_named(maker, 32, 32);

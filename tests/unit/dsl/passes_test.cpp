@@ -76,13 +76,11 @@ std::array<double, 4> run(const ir::Module& module, const Pixel& pixel, const Ma
                                      : input.name == "to_eye"   ? pixel.to_eye
                                      : input.name == "to_light" ? pixel.to_light
                                                                 : Vector{0.5, 0.5, 1});
-    const std::map<std::string, Vector> uniforms = {{"scale", {pixel.scale}},
-                                                    {"map_size", {16, 16}},
-                                                    {"offset_to_colour", pixel.encode},
-                                                    {"colour_to_offset", pixel.decode},
-                                                    {"ambient", {0.25, 0.25, 0.25}},
-                                                    {"light_colour", {1, 1, 1}},
-                                                    {"gloss", {0.5}}};
+    const std::map<std::string, Vector> uniforms = {
+        {"scale", {pixel.scale}},           {"map_size", {16, 16}},
+        {"offset_to_colour", pixel.encode}, {"colour_to_offset", pixel.decode},
+        {"ambient", {0.25, 0.25, 0.25}},    {"light_colour", {1, 1, 1}},
+        {"light_colour_1", {0.5, 0.25, 2}}, {"gloss", {0.5}}};
     for (const ir::Uniform& uniform : module.uniforms)
         environment.uniforms.push_back({uniforms.at(uniform.name)});
     for (const ir::Sampler& sampler : module.samplers)
@@ -181,6 +179,42 @@ TEST(Split, CutsBeforeShadowAndShadingKeepEveryBit) {
                 EXPECT_EQ(run({whole}, pixel, maps), run(passes, pixel, maps))
                     << text << " " << split << ", pixel " << i << " of seed " << seed;
             }
+        }
+    }
+}
+
+TEST(Split, SeveralLightsKeepEveryBitOrAreRefused) {
+    const Maps maps;
+    struct Case {
+        std::string surface;
+        Knobs knobs;
+        std::vector<std::string> splits, refused;
+    };
+    const Knobs two = {{"lights", "2"}}, one_shadow = {{"lights", "2"}, {"shadowed_lights", "1"}};
+    const std::vector<std::string> before_shading = {"shading", "shadow,shading"};
+    for (const Case& a_case :
+         {Case{"parallax_occlusion,shadow=march", two, {"shadow"}, before_shading},
+          Case{"parallax_occlusion,shadow=march", one_shadow, {"shadow", "shading"}, {}},
+          Case{"parallax_occlusion,shadow=fur_depth", two, {"shadow", "shading"}, {}},
+          Case{"parallax_occlusion", two, before_shading, {}},
+          Case{"parallax_occlusion,shadow=march", {{"lights", "0"}}, before_shading, {}}}) {
+        const Surface surface = surface_named(a_case.surface, a_case.knobs);
+        const ir::Program whole = *record_surface(surface, {"glsl_450", {}, false});
+        for (const std::string& split : a_case.splits) {
+            const std::vector<ir::Program> passes = passes_of(surface, split);
+            std::mt19937 random(seed);
+            for (int i = 0; i < 50; ++i) {
+                const Pixel pixel = random_pixel(random);
+                EXPECT_EQ(run({whole}, pixel, maps), run(passes, pixel, maps))
+                    << surface.name << " " << split << ", pixel " << i << " of seed " << seed;
+            }
+        }
+        for (const std::string& split : a_case.refused) {
+            const auto passes =
+                record_passes(surface, {"glsl_450", {}, false}, *parse_split(split));
+            ASSERT_FALSE(passes.ok()) << split;
+            EXPECT_EQ(passes.error().code, "split-lights");
+            EXPECT_THAT(passes.error().message, HasSubstr("split=shadow"));
         }
     }
 }

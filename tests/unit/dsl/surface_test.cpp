@@ -105,8 +105,10 @@ TEST(Surface, NamesOfKnobsAreUniqueInEverySurface) {
     add(catalogue().outputs);
     add(catalogue().vertex_works);
     const ReliefKnobs relief;
-    for (const KnobBase* knob : relief.knobs())
-        EXPECT_TRUE(names.insert(knob->name()).second) << knob->name();
+    const LightKnobs lighting;
+    for (const Technique* technique : std::initializer_list<const Technique*>{&relief, &lighting})
+        for (const KnobBase* knob : technique->knobs())
+            EXPECT_TRUE(names.insert(knob->name()).second) << knob->name();
 }
 
 TEST(Surface, EveryKnobWorksAtBothEndsOfItsRange) {

@@ -151,9 +151,9 @@ TEST(Depth, IsFiniteFromBelowAndAlongThePolygon) {
 
 TEST(Depth, IsRefusedWhereTheVertexWorkHandsNothingOn) {
     class Plain : public dsl::VertexWork {
-        dsl::Vertex transform() const override {
+        dsl::Vertex transform(int) const override {
             const dsl::float3 position = dsl::input<3>("position");
-            return {dsl::float4(position, 1.0f), dsl::input<2>("uv"), position, position};
+            return {dsl::float4(position, 1.0f), dsl::input<2>("uv"), position, {position}};
         }
     };
     dsl::Surface surface = surface_named("search=none,output=depth");

@@ -85,6 +85,8 @@ inline Vec3 direction(double elevation, double azimuth) {
             snapped(std::sin(e))};
 }
 
+inline const Vector white{1, 0.96, 0.88};
+
 // Everything that a draw hands to the pixel stage, by name.
 struct Draw {
     const HeightField& field;
@@ -96,6 +98,9 @@ struct Draw {
     double gloss = 0.5;
     const ir::Texture* normal_map = nullptr;  // flat where none is given
     ir::Precision precision = ir::Precision::Single;
+    Vector light_colour = white;
+    // Of the lights after the first: towards it, and its colour.
+    std::vector<std::pair<Vec3, Vector>> further = {};
 };
 
 // The evaluator on one module and one map: made once, asked often.
@@ -111,28 +116,30 @@ class Judge {
     }
 
     ir::Evaluation operator()(const Draw& draw, const std::map<std::string, Vector>& inputs) const {
-        const std::map<std::string, Vector> uniforms = {
+        std::map<std::string, Vector> uniforms = {
             {"scale", {draw.scale}},
             {"map_size",
              {static_cast<double>(draw.field.width), static_cast<double>(draw.field.height)}},
             {"ambient", {0.25, 0.27, 0.33}},
-            {"light_colour", {1, 0.96, 0.88}},
+            {"light_colour", draw.light_colour},
             {"gloss", {draw.gloss}},
             {"tile", draw.tile},
             {"texture_span", {1}},
             {"map_tangents", draw.map_tangents}};
+        for (std::size_t i = 0; i < draw.further.size(); ++i)
+            uniforms[dsl::name_of_light("light_colour", static_cast<int>(i) + 1)] =
+                draw.further[i].second;
         ir::Environment environment;
         for (const ir::Declaration& input : module_.inputs)
             environment.inputs.push_back(inputs.at(input.name));
         for (const ir::Uniform& uniform : module_.uniforms)
             environment.uniforms.push_back({uniforms.at(uniform.name)});
         for (const ir::Sampler& sampler : module_.samplers)
-            environment.samplers.push_back(
-                sampler.name == "height_map"       ? &heights_
-                : sampler.name == "colour_map"     ? &colour_
-                : baked_.named(sampler.name)       ? baked_.named(sampler.name)
-                : draw.normal_map                  ? draw.normal_map
-                                                   : &flat_);
+            environment.samplers.push_back(sampler.name == "height_map"   ? &heights_
+                                           : sampler.name == "colour_map" ? &colour_
+                                           : baked_.named(sampler.name) ? baked_.named(sampler.name)
+                                           : draw.normal_map            ? draw.normal_map
+                                                                        : &flat_);
         return evaluator_.run(environment, draw.precision);
     }
 
@@ -150,10 +157,16 @@ class Pixel {
         : judge_(recorded(surface_named(surface, knobs)), field) {}
 
     std::array<double, 4> operator()(const Draw& draw) const {
-        return judge_(draw, {{"uv", {draw.uv.x, draw.uv.y}},
-                             {"to_eye", {draw.to_eye.x, draw.to_eye.y, draw.to_eye.z}},
-                             {"to_light", {draw.to_light.x, draw.to_light.y, draw.to_light.z}}})
-            .outputs[0];
+        std::map<std::string, Vector> inputs = {
+            {"uv", {draw.uv.x, draw.uv.y}},
+            {"to_eye", {draw.to_eye.x, draw.to_eye.y, draw.to_eye.z}},
+            {"to_light", {draw.to_light.x, draw.to_light.y, draw.to_light.z}}};
+        for (std::size_t i = 0; i < draw.further.size(); ++i) {
+            const Vec3& to_light = draw.further[i].first;
+            inputs[dsl::name_of_light("to_light", static_cast<int>(i) + 1)] = {
+                to_light.x, to_light.y, to_light.z};
+        }
+        return judge_(draw, inputs).outputs[0];
     }
 
   private:

@@ -2,7 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "src/check/cost.h"
+#include "src/check/reflect.h"
 #include "src/variant/variant.h"
 #include "templates/all_techniques.h"
 
@@ -112,6 +115,61 @@ TEST(Variant, NothingIsEmittedThatNobodyReads) {
     for (const char* unread : {"normal_map", "colour_map", "to_light", "ambient", "map_size"}) {
         EXPECT_THAT(variant->pixel.text, testing::Not(testing::HasSubstr(unread)));
         EXPECT_THAT(variant->vertex.text, testing::Not(testing::HasSubstr(unread)));
+    }
+}
+
+// By the names in the text, of uniforms and interpolants.
+std::set<std::string> names_of_lights(const std::string& lights, const std::string& shadowed) {
+    VariantRequest request;
+    request.surface = "parallax_occlusion,shadow=march";
+    request.target = "glsl_450";
+    request.knobs = {{"lights", lights}, {"shadowed_lights", shadowed}};
+    const Result<Variant> variant = make_variant(catalogue(), request);
+    EXPECT_TRUE(variant.ok()) << to_string(variant.error());
+    const Result<check::Program> program = link_variant(*variant);
+    EXPECT_TRUE(program.ok()) << to_string(program.error());
+    std::set<std::string> names;
+    for (const check::SpirvWords* words : {&program->vertex, &program->pixel}) {
+        const Result<check::Reflection> reflection = check::reflect(*words);
+        for (const check::Reflection::Block& block : reflection->blocks)
+            for (const check::Reflection::Member& member : block.members)
+                if (member.name.starts_with("light")) names.insert(member.name);
+    }
+    for (const ir::Declaration& input : variant->program.pixel.inputs)
+        if (input.name.starts_with("to_light")) names.insert(input.name);
+    for (const std::string* text : {&variant->vertex.text, &variant->pixel.text})
+        for (const char* name : {"shadow_reach", "to_light", "to_light_1", "to_light_2"})
+            if (text->find(name) != std::string::npos) names.insert(std::string("text: ") + name);
+    return names;
+}
+
+TEST(Variant, ALightThatIsLeftOutLeavesNothingBehind) {
+    const std::set<std::string> one = {"light", "light_colour", "to_light", "text: to_light",
+                                       "text: shadow_reach"};
+    EXPECT_EQ(names_of_lights("1", "4"), one);
+    std::set<std::string> two = one, without_shadow = one;
+    two.insert({"light_1", "light_colour_1", "to_light_1", "text: to_light_1"});
+    EXPECT_EQ(names_of_lights("2", "4"), two);
+    without_shadow.erase("text: shadow_reach");
+    EXPECT_EQ(names_of_lights("1", "0"), without_shadow);
+    EXPECT_EQ(names_of_lights("0", "4"), std::set<std::string>());
+}
+
+TEST(Variant, MoreLightsThanInterpolantsAreRefusedWithTheirNumber) {
+    VariantRequest request;
+    request.surface = "parallax_occlusion,output=depth";
+    request.knobs = {{"taps", "2"}, {"lights", "4"}, {"ray_per_vertex", "1"}};
+    request.split.sections = 2;
+    request.pass = 2;
+    for (const char* target : {"glsl_120", "essl_100", "hlsl_2_b", "glsl_450"}) {
+        request.target = target;
+        const bool fits = request.target == "glsl_450";
+        const Result<Variant> variant = make_variant(catalogue(), request);
+        EXPECT_EQ(variant.ok(), fits) << target;
+        if (fits || variant.ok()) continue;
+        EXPECT_TRUE(is_refusal(variant.error())) << to_string(variant.error());
+        EXPECT_THAT(variant.error().message,
+                    testing::HasSubstr("takes 9 values from the vertex stage"));
     }
 }
 
