@@ -30,6 +30,8 @@ std::string text_of(const VariantRequest& request) {
     if (dsl::pass_count(request.split) > 1)
         words.push_back(
             fmt::format("--split {} --pass {}", dsl::to_string(request.split), request.pass));
+    for (const std::string& known : passes::to_strings(request.known))
+        words.push_back("known " + known);
     return fmt::format("{}", fmt::join(words, " "));
 }
 

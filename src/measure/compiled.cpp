@@ -12,6 +12,13 @@ Result<CompiledRow> compile_row(const dsl::Catalogue& catalogue, const VariantRe
     VariantRequest instrumented = request;
     instrumented.surface = dsl::with_part(request.surface, "output", "displaced");
     instrumented.count_reads = !is_bytecode;
+    instrumented.known = {};
+    if (!request.known.empty()) {
+        // What the shader that writes the hit has names for.
+        const Result<Recorded> recorded = record_variant(catalogue, instrumented);
+        if (!recorded) return recorded.error();
+        instrumented.known = passes::part_of(request.known, recorded->program);
+    }
     Result<Variant> displaced = make_variant(catalogue, instrumented);
     if (!displaced) return displaced.error();
     CompiledRow row{std::move(*shaded), std::move(*displaced), is_bytecode, {}, {}, {}, {}, {}};

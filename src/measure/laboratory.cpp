@@ -269,6 +269,7 @@ Result<vulkan::Picture> Laboratory::State::shade(const Case& what, const vulkan:
     VariantRequest request = what.request;
     request.target = "glsl_450";
     request.loop_forms.clear();
+    request.known = {};
     request.per_vertex = false;
     request.split.shadow = from == From::Shadow;
     request.split.shading = from == From::Shading;
@@ -317,6 +318,7 @@ std::shared_ptr<const Result<vulkan::Picture>> Laboratory::State::exact_picture(
     VariantRequest request = shaded.request;
     request.target = "glsl_450";
     request.loop_forms.clear();
+    request.known = {};
     request.split = {1, from == From::Shadow, from == From::Shading};
     request.pass = 2;
     Result<Recorded> pass = record_variant(catalogue, request);

@@ -13,11 +13,13 @@ Json json_of(const VariantRequest& request) {
     Json knobs = Json::object(), loops = Json::object();
     for (const auto& [knob, value] : request.knobs) knobs[knob] = value;
     for (const auto& [loop, form] : request.loop_forms) loops[loop] = word_of(form);
-    return {{"surface", request.surface},
-            {"target", request.target},
-            {"knobs", knobs},
-            {"loops", loops},
-            {"per_vertex", request.per_vertex}};
+    Json json = {{"surface", request.surface},
+                 {"target", request.target},
+                 {"knobs", knobs},
+                 {"loops", loops},
+                 {"per_vertex", request.per_vertex}};
+    if (!request.known.empty()) json["known"] = passes::to_strings(request.known);
+    return json;
 }
 
 Json json_of(Direction direction) {

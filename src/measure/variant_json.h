@@ -11,7 +11,8 @@
 
 namespace intaglio::measure {
 
-// {surface, target, knobs: {name: text}, loops: {name: "loop" or "unroll"}, per_vertex}
+// {surface, target, knobs: {name: text}, loops: {name: "loop" or "unroll"}, per_vertex}, and where
+// anything is known of it, known: ["scale = 0.05", "view.z = 0.25..1"].
 nlohmann::ordered_json json_of(const VariantRequest& request);
 nlohmann::ordered_json json_of(Direction direction);
 nlohmann::ordered_json json_of(const check::SpirvCost& cost);
