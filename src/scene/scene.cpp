@@ -241,6 +241,14 @@ Status complete(const Common& common, Entry& entry, Scene& scene) {
     if (Status status = add_view(common, entry, file, distance, surface); !status) return status;
     for (std::size_t light : entry.lights)
         surface.lights.push_back(light_over(common.lights[light], entry.place.place));
+    const auto above = std::count_if(surface.lights.begin(), surface.lights.end(),
+                                     [](const auto& light) { return light.elevation.most > 0; });
+    if (above > dsl::most_lights)
+        return input_error("scene-range",
+                           fmt::format("{} lights reach '{}', and a shader has at most {}; name "
+                                       "those that matter under lights",
+                                       above, surface.name, dsl::most_lights),
+                           file, surface.line, surface.column);
     Result<measure::CaseMap> map =
         load_case_map(entry.map, surface.scale, scene.file.parent_path());
     if (!map) return placed(map.error(), file, entry.map.position);

@@ -138,5 +138,35 @@ TEST(ExactPicture, IsWhatTheExactSearchDraws) {
     EXPECT_GT(error("parallax", {}).flip_mean, 0.02) << "and no search that is far off";
 }
 
+// What a scene fixes and bounds costs less and moves no pixel, and nothing but the shader itself
+// has to have a name for it: `ambient` is none of the hit's.
+TEST(Laboratory, WhatAVariantKnowsChangesItsCostAlone) {
+    const measure::CaseMap map = case_map("bricks");
+    for (const char* target : {"ps_2_b", "glsl_450"}) {
+        SCOPED_TRACE(target);
+        measure::Case what{request("parallax_occlusion", target, {{"taps", "6"}}),
+                           {50, 20},
+                           {45, 130},
+                           test_scale,
+                           16,
+                           measure::Filtering::Float,
+                           Arithmetic::Fp32,
+                           0};
+        const measure::CaseMetrics plain = must(laboratory().measure(what, map));
+        what.request.known.uniforms = {{"scale", {static_cast<float>(test_scale)}},
+                                       {"ambient", {0.25f, 0.27f, 0.33f}}};
+        what.request.known.ranges = {{"view.z", {0.5f, 1.0f}}};
+        const measure::CaseMetrics known = must(laboratory().measure(what, map));
+        ASSERT_FALSE(known.refusal);
+        EXPECT_LT(known.spirv.total, plain.spirv.total);
+        EXPECT_EQ(known.hits.max, plain.hits.max);
+        EXPECT_EQ(known.hits.median, plain.hits.median);
+        EXPECT_EQ(known.hits.missed, plain.hits.missed);
+        EXPECT_EQ(known.picture.flip_mean, plain.picture.flip_mean);
+        EXPECT_EQ(known.picture.invalid, 0);
+        EXPECT_GT(plain.hits.max, 0);
+    }
+}
+
 }  // namespace
 }  // namespace intaglio::exec

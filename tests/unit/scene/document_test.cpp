@@ -51,6 +51,22 @@ TEST(SceneDocument, TheExampleIsAScene) {
     EXPECT_EQ(scene->surfaces[1].elevation, (Span{30, 90}));
 }
 
+TEST(SceneDocument, TheHarbourIsAScene) {
+    const dsl::Catalogue catalogue = templates::all_techniques();
+    const Result<Scene> scene = read_scene(source / "examples/harbour/harbour.toml", &catalogue);
+    ASSERT_TRUE(scene.ok()) << to_string(scene.error());
+    ASSERT_GE(scene->surfaces.size(), 4u);
+    for (const SceneSurface& surface : scene->surfaces) {
+        EXPECT_THAT(surface.targets,
+                    ::testing::ElementsAre("ps_2_0", "ps_2_b", "ps_3_0", "glsl_450"));
+        EXPECT_GT(surface.elevation.least, 30) << surface.name;  // seen from above
+        EXPECT_TRUE(surface.pixels_a_texel) << surface.name;
+        // The sun stands behind the sign, and above all else.
+        for (const SurfaceLight& light : surface.lights)
+            EXPECT_EQ(light.elevation.most < 0, light.name == "sun" && surface.name == "sign");
+    }
+}
+
 // The sentence that the page ends with is what the reader says.
 TEST(SceneDocument, TheMistakeIsTold) {
     std::string text = example();

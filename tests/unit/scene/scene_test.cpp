@@ -203,6 +203,10 @@ std::string in_head(const std::string& line) { return head + line + "\n" + toler
 // Tables of the scene, from line 3.
 std::string with(const std::string& tables) { return head + tables + "\n" + tolerance + wall; }
 
+std::string lamp(const std::string& name) {
+    return "[[light]]\nname = '" + name + "'\nplace = [0, 0, 1]\n";
+}
+
 const Mistake mistakes[] = {
     {"NotToml", "[[surface\n", "", "scene-syntax", 1, 10},
     {"UnknownKey", in_head("target = 'x'"), "did you mean 'targets'?", "scene-unknown-key", 3, 1},
@@ -312,6 +316,8 @@ const Mistake mistakes[] = {
      22},
     {"SurfaceTolerance", in_surface("tolerance = { p96 = 1 }"), "metric of [surface.tolerance]",
      "unknown-metric", 9, 15},
+    {"FiveLights", with(lamp("a") + lamp("b") + lamp("c") + lamp("d") + lamp("e")),
+     "5 lights reach 'wall', and a shader has at most 4", "scene-range", 21, 1},
     {"Unseen", with("[camera]\npath = [[0, 0, -1]]"), "never sees the front of 'wall'",
      "scene-unseen", 7, 1},
 };
