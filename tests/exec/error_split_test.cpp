@@ -138,7 +138,7 @@ TEST(ExactPicture, IsWhatTheExactSearchDraws) {
     EXPECT_GT(error("parallax", {}).flip_mean, 0.02) << "and no search that is far off";
 }
 
-// What a scene fixes and bounds costs less and moves no pixel, and nothing but the shader itself
+// What a scene fixes and bounds costs less and moves no hit, and nothing but the shader itself
 // has to have a name for it: `ambient` is none of the hit's.
 TEST(Laboratory, WhatAVariantKnowsChangesItsCostAlone) {
     const measure::CaseMap map = case_map("bricks");
@@ -162,7 +162,8 @@ TEST(Laboratory, WhatAVariantKnowsChangesItsCostAlone) {
         EXPECT_EQ(known.hits.max, plain.hits.max);
         EXPECT_EQ(known.hits.median, plain.hits.median);
         EXPECT_EQ(known.hits.missed, plain.hits.missed);
-        EXPECT_EQ(known.picture.flip_mean, plain.picture.flip_mean);
+        // Direct3D 9 chooses its instructions anew, and sums of the shading may round otherwise.
+        EXPECT_NEAR(known.picture.flip_mean, plain.picture.flip_mean, 1e-6);
         EXPECT_EQ(known.picture.invalid, 0);
         EXPECT_GT(plain.hits.max, 0);
     }
