@@ -9,7 +9,9 @@
 #include "src/cli/completion.h"
 #include "src/cli/description.h"
 #include "src/cli/hard.h"
+#include "src/cli/plan.h"
 #include "src/cli/sweep.h"
+#include "src/plan/plan.h"
 
 namespace intaglio::cli {
 namespace {
@@ -112,7 +114,8 @@ int report_usage(const CLI::App& app, const CLI::ParseError& error) {
 int report(const Status& status) {
     if (status) return exit_fine;
     fmt::print(stderr, "{}\n", to_string(status.error()));
-    if (status.error().code == over_budget) return exit_over_budget;
+    if (status.error().code == over_budget || status.error().code == plan::unsatisfied)
+        return exit_over_budget;
     return status.error().fault == Fault::Internal ? exit_own_failure : exit_bad_input;
 }
 
@@ -416,6 +419,7 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
         });
     }
     add_report(app, catalogue, chosen);
+    add_plan(app, catalogue, chosen);
     add_sweep(app, catalogue, chosen);
     add_bake(app, chosen);
     add_hard(app, catalogue, chosen);

@@ -31,6 +31,8 @@ struct Order {
     VariantRequest request;  // composition, target, knobs, loops, what is known
     std::vector<Figure> costs, errors;
     std::vector<MapOrder> maps;
+    // The scene's lights that the shader's are, by number: `light` first, then `light_1`.
+    std::vector<std::string> lights = {};
 
     // "quay.ps_2_0": what its files begin with.
     std::string name() const { return surface + "." + request.target; }

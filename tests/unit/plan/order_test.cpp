@@ -32,6 +32,7 @@ Order some_order() {
     order.costs = {{"arithmetic", 43, "Direct3D 9's charge"}};
     order.errors = {{"p95", 0.1 + 0.2, "the device"}};
     order.maps = {{"cone_map", "relaxed-cone", "quäy \"1\".relaxed-cone.png"}};
+    order.lights = {"sun", "lamp"};
     return order;
 }
 
@@ -49,6 +50,7 @@ TEST(Order, IsReadAsItWasWritten) {
     EXPECT_EQ(read->request.known, order.request.known);
     EXPECT_EQ(read->maps.front().file, order.maps.front().file);
     EXPECT_EQ(read->errors.front().value, 0.1 + 0.2);
+    EXPECT_EQ(read->lights, order.lights);
     EXPECT_EQ(read->name(), "quay.ps_2_b");
 }
 

@@ -1,4 +1,5 @@
-// Orders as JSON and back.  Floats are written with the fewest digits that read back as they were.
+// Orders, trials and plans as JSON.  Floats are written with the fewest digits that read back as
+// they were.
 #include "src/plan/order.h"
 
 #include <algorithm>
@@ -10,6 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "src/measure/command.h"
+#include "src/plan/plan.h"
+#include "src/plan/trial_text.h"
 
 namespace intaglio::plan {
 namespace {
@@ -17,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Raised when a member goes or changes its meaning.
-constexpr int order_schema = 1;
+constexpr int order_schema = 1, plan_schema = 1;
 
 // An end of a range that is open is null.
 Json number(float value) {
@@ -93,6 +96,59 @@ Json json_of(const std::vector<Figure>& figures) {
     return json;
 }
 
+Json json_of(const Order& order) {
+    Json maps = Json::array();
+    for (const MapOrder& map : order.maps)
+        maps.push_back({{"uniform", map.uniform}, {"kind", map.kind}, {"file", map.file}});
+    return {{"schema", order_schema},
+            {"surface", order.surface},
+            {"request", json_of(order.request)},
+            {"costs", json_of(order.costs)},
+            {"errors", json_of(order.errors)},
+            {"maps", maps},
+            {"lights", order.lights}};
+}
+
+std::string dumped(const Json& json) {
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+template <typename T>
+Json json_of(const std::optional<T>& value) {
+    return value ? Json(*value) : Json();
+}
+
+Json json_of(const Candidate& candidate) {
+    return {{"variant", candidate.text},          {"request", json_of(candidate.request)},
+            {"fate", name_of(candidate.fate)},    {"why", candidate.why},
+            {"judged", candidate.judged},         {"cost", candidate.cost},
+            {"operations", candidate.operations}, {"reads", candidate.reads},
+            {"costs", candidate.costs},           {"errors", candidate.errors}};
+}
+
+Json json_of(const Dropped& dropped) {
+    return {{"what", dropped.what},
+            {"by", name_of(dropped.by)},
+            {"why", dropped.why},
+            {"cost_before", json_of(dropped.cost_before)},
+            {"cost_after", json_of(dropped.cost_after)},
+            {"error", dropped.error}};
+}
+
+Json json_of(const Choice& choice) {
+    Json candidates = Json::array(), dropped = Json::array();
+    for (const Candidate& each : choice.candidates) candidates.push_back(json_of(each));
+    for (const Dropped& each : choice.dropped) dropped.push_back(json_of(each));
+    return {{"surface", choice.surface},
+            {"target", choice.target},
+            {"chosen", json_of(choice.chosen)},
+            {"best_that_fits", json_of(choice.best_that_fits)},
+            {"cheapest_right", json_of(choice.cheapest_right)},
+            {"order", choice.order ? json_of(*choice.order) : Json()},
+            {"dropped", dropped},
+            {"candidates", candidates}};
+}
+
 std::vector<Figure> figures_of(const Json& json) {
     std::vector<Figure> figures;
     for (const Json& each : json) {
@@ -119,18 +175,7 @@ Diagnostic syntax_error(const std::string& text, std::size_t byte, const std::st
 
 }  // namespace
 
-std::string to_text(const Order& order) {
-    Json maps = Json::array();
-    for (const MapOrder& map : order.maps)
-        maps.push_back({{"uniform", map.uniform}, {"kind", map.kind}, {"file", map.file}});
-    const Json json = {{"schema", order_schema},
-                       {"surface", order.surface},
-                       {"request", json_of(order.request)},
-                       {"costs", json_of(order.costs)},
-                       {"errors", json_of(order.errors)},
-                       {"maps", maps}};
-    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+std::string to_text(const Order& order) { return dumped(json_of(order)); }
 
 Result<Order> read_order(const std::string& text, const std::string& file) {
     try {
@@ -153,6 +198,7 @@ Result<Order> read_order(const std::string& text, const std::string& file) {
         order.errors = figures_of(json.at("errors"));
         for (const Json& map : json.at("maps"))
             order.maps.push_back({map.at("uniform"), map.at("kind"), map.at("file")});
+        order.lights = json.at("lights").get<std::vector<std::string>>();
         return order;
     } catch (const Json::parse_error& error) {
         return syntax_error(text, error.byte, file, "it is not JSON");
@@ -160,6 +206,38 @@ Result<Order> read_order(const std::string& text, const std::string& file) {
         return syntax_error(text, 0, file,
                             "a member is missing or of another type; `intaglio plan --orders` "
                             "writes it anew");
+    }
+}
+
+std::string to_text(const Plan& plan) {
+    Json choices = Json::array();
+    for (const Choice& choice : plan.choices) choices.push_back(json_of(choice));
+    return dumped({{"schema", plan_schema},
+                   {"scene", plan.scene},
+                   {"satisfied", plan.is_satisfied()},
+                   {"choices", choices}});
+}
+
+std::string to_text(const Trial& trial) {
+    const Json json = {{"refusal", trial.refusal},       {"refusal_code", trial.refusal_code},
+                       {"operations", trial.operations}, {"reads", trial.reads},
+                       {"costs", trial.costs},           {"errors", trial.errors}};
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::optional<Trial> read_trial(std::string_view text) {
+    try {
+        const Json json = Json::parse(text);
+        Trial trial;
+        trial.refusal = json.at("refusal");
+        trial.refusal_code = json.at("refusal_code");
+        trial.operations = json.at("operations");
+        trial.reads = json.at("reads");
+        trial.costs = json.at("costs").get<std::map<std::string, double>>();
+        trial.errors = json.at("errors").get<std::map<std::string, double>>();
+        return trial;
+    } catch (const Json::exception&) {
+        return {};
     }
 }
 

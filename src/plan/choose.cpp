@@ -1,0 +1,484 @@
+// One target's choice.  Pairs of a search and a shadow are judged in the order of what they will
+// cost as the evaluator counts it, until none that is left can be cheaper than the best.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "generator/target/d3d9/limits.h"
+#include "src/measure/named_metric.h"
+#include "src/plan/finish.h"
+#include "src/plan/parallel.h"
+#include "src/plan/surface_work.h"
+
+namespace intaglio::plan {
+namespace {
+
+// So much cheaper than what the ratios of others to their prediction say a variant may be.
+// `plan --exhaustive` measures what it is: docs/plan.md.
+constexpr double surprise = 0.8;
+constexpr std::size_t batch = 4;  // judged at once, whatever the number of workers
+// On the shadows' ladder a little wrong on one search's hits may be right on another's.
+constexpr double shadow_slack = 1.25;
+// Schedules change costs by less than this.
+constexpr double near = 1.25;
+constexpr int most_written_out = 20000;  // operations of a language without loops
+// A text longer than this is not offered where the language has loops.
+constexpr int most_unrolled = 1000;
+constexpr std::size_t most_fits = 60;  // tried in search of the best that fits
+
+struct Pair {
+    const Tried* search;
+    const Tried* shadow;  // null: none is wanted
+    double predicted = 0, wrong = 0;
+    Trial size{};  // written out, of a target without loops
+    Candidate candidate{};
+    bool measured = false;  // its errors are its own
+};
+
+class Chooser {
+  public:
+    Chooser(const SurfaceWork& work, const std::string& target)
+        : work_(work),
+          target_(*find_target(target)),
+          tolerance_(work.surface.tolerance_on(target)),
+          budget_(work.surface.budget_on(target)) {}
+
+    Result<Choice> run();
+
+  private:
+    Status pair_up();
+    Status predict(Pair& pair);
+    Status judge(Pair& pair);
+    Status judge_batch(const std::vector<Pair*>& some);
+    Status measure(Pair& pair);
+    Status find_best();
+    Status try_schedules();
+    Status find_nearest();
+    // Without loops everything is written out, and runs.
+    bool straight() const { return !target_.capabilities.loops; }
+    bool bytecode() const { return profile_of(target_).has_value(); }
+    VariantRequest request(const Pair& pair, const Schedule& schedule = {}) const {
+        return work_.request(std::string(target_.name), pair.search->rung,
+                             pair.shadow ? &pair.shadow->rung : nullptr, schedule);
+    }
+    std::string far_too_long(const Pair& pair) const;
+    const Pair* refused_below(const Pair& pair) const;
+    std::string over_budget(const std::map<std::string, double>& costs) const;
+    void set_wrong(Pair& pair);
+    void losers_of_ladders(Choice& choice) const;
+
+    const SurfaceWork& work_;
+    const Target& target_;
+    const scene::Tolerance tolerance_;
+    const scene::Budget budget_;
+    std::vector<Pair> pairs_;
+    std::vector<const Pair*> refused_;
+    Pair* best_ = nullptr;
+    double least_ratio_ = 0;  // of costs to their predictions; 0: none is known
+};
+
+std::string text_of(const Pair& pair) {
+    std::string text = pair.search->rung.text();
+    if (pair.shadow) text += ", shadow " + pair.shadow->rung.text();
+    return text;
+}
+
+// Whether `high` does at least what `low` does.
+bool no_less_than(const Pair& high, const Pair& low) {
+    if (!high.search->rung.no_less_than(low.search->rung)) return false;
+    return high.shadow == nullptr || high.shadow->rung.no_less_than(low.shadow->rung);
+}
+
+// Where two are as good, the more accurate, then the first by name.
+bool better(const Pair& a, const Pair& b) {
+    if (a.candidate.cost != b.candidate.cost) return a.candidate.cost < b.candidate.cost;
+    if (a.wrong != b.wrong) return a.wrong < b.wrong;
+    return a.candidate.text < b.candidate.text;
+}
+
+Status Chooser::predict(Pair& pair) {
+    pair.candidate.text = text_of(pair);
+    pair.candidate.request = request(pair);
+    if (straight()) {
+        const Result<Trial> size =
+            work_.kept.run(work_.site, pair.candidate.request, work_.hit_rays, Ask::Size);
+        if (!size) return size.error();
+        pair.size = *size;
+        pair.candidate.operations = size->operations;
+        pair.candidate.reads = size->reads;
+    } else {
+        // What a shadow adds to one search it adds to another with nearly the same hits.
+        const Trial &alone = *pair.search->trial, &under = *work_.searches[work_.base].trial;
+        pair.candidate.operations = alone.operations;
+        pair.candidate.reads = alone.reads;
+        if (pair.shadow) {
+            pair.candidate.operations += pair.shadow->trial->operations - under.operations;
+            pair.candidate.reads += pair.shadow->trial->reads - under.reads;
+        }
+        pair.candidate.operations += work_.shading.operations;
+        pair.candidate.reads += work_.shading.reads;
+    }
+    pair.predicted = pair.candidate.operations + work_.read_weight * pair.candidate.reads;
+    pair.candidate.cost = pair.predicted;
+    return Done{};
+}
+
+// All that the ladders leave: both right, or with --exhaustive all.
+Status Chooser::pair_up() {
+    const bool all = work_.options.exhaustive;
+    for (const Tried& search : work_.searches) {
+        if (!search.trial || !search.trial->refusal.empty()) continue;
+        const double wrong = wrongness(tolerance_, *search.trial, true);
+        if (!work_.wants_shadow()) {
+            pairs_.push_back({&search, nullptr, 0, wrong, {}});
+            continue;
+        }
+        for (const Tried& shadow : work_.shadows) {
+            if (!shadow.trial || !shadow.trial->refusal.empty()) continue;
+            const auto limit = tolerance_.find("shadow_wrong");
+            const double of_shadow =
+                limit == tolerance_.end()
+                    ? 0
+                    : wrongness({{limit->first, limit->second}}, *shadow.trial, false);
+            // Combinations of two wrongs are as wrong as either.
+            if (!all && wrong > 1 && of_shadow > shadow_slack) continue;
+            pairs_.push_back({&search, &shadow, 0, std::max(wrong, of_shadow / shadow_slack), {}});
+        }
+    }
+    std::vector<std::optional<Diagnostic>> errors(pairs_.size());
+    in_parallel(pairs_.size(), work_.options.workers, [&](std::size_t i) {
+        if (Status status = predict(pairs_[i]); !status) errors[i] = status.error();
+    });
+    for (const auto& error : errors)
+        if (error) return *error;
+    std::stable_sort(pairs_.begin(), pairs_.end(), better);
+    return Done{};
+}
+
+std::string Chooser::over_budget(const std::map<std::string, double>& costs) const {
+    for (const auto& [metric, limit] : budget_) {
+        const auto found = costs.find(metric);
+        if (found == costs.end()) return fmt::format("{} is unknown", metric);
+        if (found->second > limit)
+            return fmt::format("{} is {:.4g}, of at most {:.4g}", metric, found->second, limit);
+    }
+    return {};
+}
+
+// The same setting that was refused, or one with less to do.
+const Pair* Chooser::refused_below(const Pair& pair) const {
+    for (const Pair* lower : refused_)
+        if (no_less_than(pair, *lower)) return lower;
+    return nullptr;
+}
+
+void Chooser::set_wrong(Pair& pair) {
+    pair.candidate.fate = Fate::Wrong;
+    const Trial own{{}, {}, pair.candidate.errors, {}};
+    pair.candidate.why = why_wrong(tolerance_, own, false);
+}
+
+// What need not be written out to know that it does not fit.
+std::string Chooser::far_too_long(const Pair& pair) const {
+    if (!straight()) return {};
+    // Four lanes of a multiplication and an addition.
+    constexpr int most_in_a_slot = 8;
+    int reads = target_.capabilities.texture_reads, arithmetic = 0;
+    if (bytecode()) {
+        const d3d9::Limits& limits = d3d9::limits_of(*profile_of(target_));
+        reads = limits.texture_slots;
+        arithmetic = limits.arithmetic_slots;
+    }
+    if (reads > 0 && pair.size.reads > reads)
+        return fmt::format("{:.0f} texture reads written out, of at most {}", pair.size.reads,
+                           reads);
+    const double slots = pair.size.operations / most_in_a_slot;
+    if (arithmetic > 0 && slots > arithmetic)
+        return fmt::format("at least {:.0f} arithmetic slots, of at most {}", slots, arithmetic);
+    if (arithmetic == 0 && pair.size.operations > most_written_out)
+        return fmt::format("{:.0f} operations written out, of at most {} that are offered",
+                           pair.size.operations, most_written_out);
+    return {};
+}
+
+// Whether the target has it, and what it costs there.
+Status Chooser::judge(Pair& pair) {
+    Candidate& candidate = pair.candidate;
+    if (candidate.why = far_too_long(pair); !candidate.why.empty()) {
+        candidate.fate = Fate::Refused;
+        candidate.judged = true;
+        return Done{};
+    }
+    const Result<Trial> price = work_.price(candidate.request);
+    if (!price) return price.error();
+    candidate.judged = true;
+    if (!price->refusal.empty()) {
+        candidate.fate = Fate::Refused;
+        candidate.why = price->refusal;
+        return Done{};
+    }
+    candidate.costs = price->costs;
+    candidate.operations = price->operations;
+    candidate.reads = price->reads;
+    candidate.cost = candidate.operations + work_.read_weight * candidate.reads;
+    candidate.fate = Fate::Dearer;
+    if (!bytecode() || work_.options.exhaustive) return measure(pair);
+    return Done{};
+}
+
+// Its own errors, in place of its parts'.
+Status Chooser::measure(Pair& pair) {
+    Candidate& candidate = pair.candidate;
+    VariantRequest same = SurfaceWork::one_light(candidate.request);
+    if (!bytecode()) {
+        same = SurfaceWork::unpruned(same);
+        same.target = work_.like(same, Ask::Errors);
+    }
+    const Result<Trial> trial = work_.kept.run(work_.site, same, work_.rays(), Ask::Errors);
+    if (!trial) return trial.error();
+    pair.measured = true;
+    if (!trial->refusal.empty()) {
+        // Of the shader that writes the hit, which can be the longer one.
+        candidate.fate = Fate::Refused;
+        candidate.why = "its hits cannot be measured: " + trial->refusal;
+        return Done{};
+    }
+    candidate.errors = trial->errors;
+    candidate.costs["reads"] = trial->costs.at("reads");
+    pair.wrong = wrongness(tolerance_, *trial, false);
+    if (pair.wrong > 1) {
+        set_wrong(pair);
+    } else if (const std::string over = over_budget(candidate.costs); !over.empty()) {
+        candidate.fate = Fate::OverBudget;
+        candidate.why = over;
+    }
+    return Done{};
+}
+
+Status Chooser::judge_batch(const std::vector<Pair*>& some) {
+    std::vector<std::optional<Diagnostic>> errors(some.size());
+    in_parallel(some.size(), work_.options.workers, [&](std::size_t i) {
+        if (Status status = judge(*some[i]); !status) errors[i] = status.error();
+    });
+    for (const auto& error : errors)
+        if (error) return *error;
+    std::vector<Pair*> fitting;
+    for (Pair* pair : some) {
+        if (pair->candidate.fate == Fate::Refused) {
+            refused_.push_back(pair);
+            continue;
+        }
+        const double ratio = pair->candidate.cost / std::max(pair->predicted, 1.0);
+        least_ratio_ = least_ratio_ == 0 ? ratio : std::min(least_ratio_, ratio);
+        fitting.push_back(pair);
+    }
+    // Bytecode is run where it would be the best.
+    std::stable_sort(fitting.begin(), fitting.end(),
+                     [](const Pair* a, const Pair* b) { return better(*a, *b); });
+    for (Pair* pair : fitting) {
+        if (best_ != nullptr && !better(*pair, *best_)) continue;
+        if (!pair->measured)
+            if (Status status = measure(*pair); !status) return status;
+        if (pair->candidate.fate == Fate::Dearer) best_ = pair;
+    }
+    return Done{};
+}
+
+Status Chooser::find_best() {
+    std::vector<Pair*> some;
+    for (std::size_t i = 0; i <= pairs_.size(); ++i) {
+        if (some.size() == batch || i == pairs_.size()) {
+            if (Status status = judge_batch(some); !status) return status;
+            some.clear();
+        }
+        if (i == pairs_.size()) break;
+        Pair& pair = pairs_[i];
+        if (pair.wrong > 1 && !work_.options.exhaustive) continue;
+        if (pair.candidate.why = far_too_long(pair); !pair.candidate.why.empty()) {
+            pair.candidate.fate = Fate::Refused;
+        } else if (const Pair* lower = refused_below(pair)) {
+            pair.candidate.fate = Fate::Refused;
+            pair.candidate.why = fmt::format("{} does less and is refused", text_of(*lower));
+        } else if (best_ != nullptr && !work_.options.exhaustive &&
+                   pair.predicted * least_ratio_ * surprise > best_->candidate.cost) {
+            pair.candidate.why = fmt::format("foreseen to cost {:.0f}, against {:.0f}",
+                                             pair.predicted * least_ratio_, best_->candidate.cost);
+        } else {
+            some.push_back(&pair);
+        }
+    }
+    return Done{};
+}
+
+// The best and what is nearly as cheap, with other schedules.
+Status Chooser::try_schedules() {
+    if (best_ == nullptr) return Done{};
+    std::vector<Schedule> schedules = {{false, true}};
+    if (target_.capabilities.loops) {
+        schedules.push_back({true, false});
+        schedules.push_back({true, true});
+    }
+    std::vector<Pair> more;
+    std::vector<std::string> seen = {work_.optimized(best_->candidate.request)};
+    for (const Pair& pair : pairs_) {
+        if (pair.candidate.fate != Fate::Dearer || !pair.candidate.judged) continue;
+        if (pair.candidate.cost > near * best_->candidate.cost && !work_.options.exhaustive)
+            continue;
+        const Result<Trial> size =
+            work_.kept.run(work_.site, pair.candidate.request, work_.hit_rays, Ask::Size);
+        if (!size) return size.error();
+        for (const Schedule& schedule : schedules) {
+            if (schedule.unrolled && size->operations > most_unrolled) continue;
+            Pair other = pair;
+            other.measured = false;
+            other.candidate.request = request(pair, schedule);
+            // A schedule that changes nothing is none.
+            const std::string made = work_.optimized(other.candidate.request);
+            if (std::find(seen.begin(), seen.end(), made) != seen.end()) continue;
+            seen.push_back(made);
+            other.candidate.text += schedule.unrolled ? ", unrolled" : "";
+            other.candidate.text += schedule.per_vertex ? ", per vertex" : "";
+            more.push_back(std::move(other));
+        }
+    }
+    const std::size_t before = pairs_.size();
+    const std::size_t best = static_cast<std::size_t>(best_ - pairs_.data());
+    pairs_.insert(pairs_.end(), more.begin(), more.end());
+    refused_.clear();  // which pointed into pairs_
+    best_ = &pairs_[best];
+    std::vector<Pair*> some;
+    for (std::size_t i = before; i < pairs_.size(); ++i) some.push_back(&pairs_[i]);
+    return judge_batch(some);
+}
+
+// Nothing is right and fits: the most accurate that fits.
+Status Chooser::find_nearest() {
+    std::vector<Pair*> by_wrong;
+    for (Pair& pair : pairs_) by_wrong.push_back(&pair);
+    std::stable_sort(by_wrong.begin(), by_wrong.end(),
+                     [](const Pair* a, const Pair* b) { return a->wrong < b->wrong; });
+    std::size_t tried = 0;
+    for (Pair* pair : by_wrong) {
+        if (pair->candidate.judged || refused_below(*pair) != nullptr) continue;
+        if (!far_too_long(*pair).empty()) continue;
+        if (++tried > most_fits) break;
+        if (Status status = judge(*pair); !status) return status;
+        if (pair->candidate.fate == Fate::Refused) {
+            refused_.push_back(pair);
+            continue;
+        }
+        if (!pair->measured)
+            if (Status status = measure(*pair); !status) return status;
+        if (pair->candidate.fate == Fate::Wrong && over_budget(pair->candidate.costs).empty())
+            return Done{};
+    }
+    return Done{};
+}
+
+// Rungs that never came to a pair of their own.
+void Chooser::losers_of_ladders(Choice& choice) const {
+    const auto add = [&](const std::vector<Tried>& ladder, const char* kind, bool hits_alone) {
+        std::map<std::pair<std::string, std::string>, int> skipped;
+        for (const Tried& one : ladder) {
+            if (!one.trial) {
+                ++skipped[{one.rung.technique, one.skipped}];
+                continue;
+            }
+            const std::string why = one.trial->refusal.empty()
+                                        ? why_wrong(tolerance_, *one.trial, hits_alone)
+                                        : one.trial->refusal;
+            const bool in_pairs = std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
+                return pair.search == &one || pair.shadow == &one;
+            });
+            if (why.empty() || in_pairs) continue;
+            Candidate candidate;
+            candidate.text = kind + one.rung.text();
+            candidate.fate = one.trial->refusal.empty() ? Fate::Wrong : Fate::Refused;
+            candidate.why = why;
+            candidate.operations = one.trial->operations;
+            candidate.reads = one.trial->reads;
+            candidate.cost = work_.cost(*one.trial);
+            candidate.errors = one.trial->errors;
+            choice.candidates.push_back(std::move(candidate));
+        }
+        for (const auto& [what, count] : skipped) {
+            Candidate candidate;
+            candidate.text = fmt::format("{}{}, {} more setting{}", kind, what.first, count,
+                                         count == 1 ? "" : "s");
+            candidate.why = what.second;
+            choice.candidates.push_back(std::move(candidate));
+        }
+    };
+    add(work_.searches, "", true);
+    add(work_.shadows, "shadow ", false);
+}
+
+Result<Choice> Chooser::run() {
+    Choice choice;
+    choice.surface = work_.surface.name;
+    choice.target = target_.name;
+    if (Status status = pair_up(); !status) return status.error();
+    if (Status status = find_best(); !status) return status.error();
+    if (Status status = try_schedules(); !status) return status.error();
+    if (best_ == nullptr)
+        if (Status status = find_nearest(); !status) return status.error();
+
+    std::stable_sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
+        if (a.candidate.judged != b.candidate.judged) return a.candidate.judged;
+        return better(a, b);
+    });
+    double least_wrong = INFINITY, least_cost = INFINITY;
+    for (Pair& pair : pairs_) {
+        Candidate& candidate = pair.candidate;
+        const std::size_t index = choice.candidates.size();
+        const bool right = pair.wrong <= 1;
+        if (candidate.errors.empty()) candidate.errors = pair.search->trial->errors;
+        if (!candidate.judged && candidate.fate == Fate::NotTried) {
+            if (!right) candidate.fate = Fate::Wrong;
+            if (candidate.why.empty())
+                candidate.why = why_wrong(tolerance_, *pair.search->trial, true);
+            if (candidate.why.empty() && pair.shadow && !right)
+                candidate.why = why_wrong(tolerance_, *pair.shadow->trial, false);
+        }
+        if (candidate.fate == Fate::Dearer && right) {
+            if (!choice.chosen) {
+                choice.chosen = index;
+                candidate.fate = Fate::Chosen;
+                candidate.why = "the cheapest that is right";
+            } else {
+                candidate.why = fmt::format("costs {:.3g} against {:.3g}", candidate.cost,
+                                            choice.candidates[*choice.chosen].cost);
+            }
+        }
+        const bool fits = candidate.judged && candidate.fate != Fate::Refused &&
+                          candidate.fate != Fate::OverBudget &&
+                          over_budget(candidate.costs).empty();
+        if (fits && pair.wrong < least_wrong) {
+            least_wrong = pair.wrong;
+            choice.best_that_fits = index;
+        }
+        if (right && candidate.cost < least_cost) {
+            least_cost = candidate.cost;
+            choice.cheapest_right = index;
+        }
+        choice.candidates.push_back(std::move(candidate));
+    }
+    if (choice.chosen) choice.best_that_fits = choice.cheapest_right = {};
+    losers_of_ladders(choice);
+    choice.dropped = work_.dropped;
+    if (choice.chosen)
+        if (Status status = finish(work_, choice); !status) return status.error();
+    return choice;
+}
+
+}  // namespace
+
+Result<Choice> choose(const SurfaceWork& work, const std::string& target) {
+    if (find_target(target) == nullptr)
+        return input_error("unknown-target", "unknown target '" + target + "'");
+    return Chooser(work, target).run();
+}
+
+}  // namespace intaglio::plan
