@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "src/budget/observing.h"
 #include "src/maps/files.h"
 #include "src/report/command.h"
 #include "src/variant/explain.h"
@@ -23,68 +24,14 @@ constexpr std::size_t largest_file = std::size_t{64} << 20;
 // Six digits: what files hold, so that a run that changes nothing differs by nothing.
 double rounded(double value) { return std::stod(fmt::format("{:.6g}", value)); }
 
-// Keeps the worst of several cases under one name.
-void worst(Observation& into, const std::string& metric, double value, const std::string& command) {
-    if (!std::isfinite(value)) return;
-    const double number = rounded(value);
-    const auto [place, is_new] = into.values.try_emplace(metric, number);
-    if (!is_new && place->second >= number) return;
-    place->second = number;
-    if (!command.empty()) into.commands[metric] = command;
-}
-
-void add_hits(Observation& into, const measure::HitStatistics& hits, const std::string& suffix,
-              const std::string& command) {
-    const auto percent = [&](std::int64_t part) {
-        return 100.0 * static_cast<double>(part) / static_cast<double>(hits.pixels);
-    };
-    // Without a valid pixel there is no error to speak of: unknown, which is never a pass.
-    if (hits.pixels > hits.invalid) {
-        worst(into, "p95" + suffix, hits.p95, command);
-        worst(into, "missed" + suffix, percent(hits.missed), command);
-    }
-    if (!suffix.empty() || hits.pixels <= hits.invalid) return;
-    worst(into, "median", hits.median, command);
-    worst(into, "p99", hits.p99, command);
-    worst(into, "height", hits.height_max, command);
-    worst(into, "shadow_wrong", percent(hits.shadow_wrong), command);
-}
-
 void add_case(Observation& into, const CaseResult& result, const std::string& command) {
-    worst(into, "reads", result.reads_mean, "");
+    add_worst(into, "reads", result.reads_mean, "");
     add_hits(into, result.hits, "", command);
     if (result.narrow_hits.size() == measure::narrow_arithmetics.size()) {
         add_hits(into, result.narrow_hits[0], "_fp24", command);
         add_hits(into, result.narrow_hits[1], "_fp16", command);
     }
     into.values["invalid"] += static_cast<double>(result.hits.invalid + result.invalid_colours);
-}
-
-void add_slots(Observation& into, const d3d9::Resources& used) {
-    into.values["arithmetic"] = used.arithmetic;
-    into.values["texture"] = used.texture;
-    into.values["total"] = used.total;
-    into.values["temps"] = used.temps;
-    into.values["constants"] = used.constants;
-    into.values["samplers"] = used.samplers;
-    into.values["dependent_level"] = used.dependent_level;
-}
-
-void add_spirv(Observation& into, const check::SpirvCost& cost) {
-    into.values["spirv_alu"] = cost.alu;
-    into.values["spirv_texture"] = cost.texture;
-    into.values["spirv_branch"] = cost.branch;
-    into.values["longest_path"] = static_cast<double>(cost.longest_path);
-}
-
-void add_lines(Observation& into, const ExplainedVariant& explained) {
-    for (const d3d9::Spent& spent : explained.stages.front().explanation.lines) {
-        const std::string place =
-            spent.file.empty() ? "unknown line" : fmt::format("{}:{}", spent.file, spent.line);
-        const std::string step = spent.step.empty() ? "outside steps" : spent.step;
-        into.lines[fmt::format("{} at {}", step, place)] +=
-            spent.slots.arithmetic + spent.slots.texture;
-    }
 }
 
 std::tuple<const std::string&, const std::string&, const std::string&> key(const Observation& o) {
@@ -104,6 +51,64 @@ Observation observation_of(const Json& json) {
 }
 
 }  // namespace
+
+void add_worst(Observation& into, const std::string& metric, double value,
+               const std::string& command) {
+    if (!std::isfinite(value)) return;
+    const double number = rounded(value);
+    const auto [place, is_new] = into.values.try_emplace(metric, number);
+    if (!is_new && place->second >= number) return;
+    place->second = number;
+    if (!command.empty()) into.commands[metric] = command;
+}
+
+void add_hits(Observation& into, const measure::HitStatistics& hits, const std::string& suffix,
+              const std::string& command) {
+    const auto percent = [&](std::int64_t part) {
+        return 100.0 * static_cast<double>(part) / static_cast<double>(hits.pixels);
+    };
+    // Without a valid pixel there is no error to speak of: unknown, which is never a pass.
+    if (hits.pixels > hits.invalid) {
+        add_worst(into, "p95" + suffix, hits.p95, command);
+        add_worst(into, "missed" + suffix, percent(hits.missed), command);
+    }
+    if (!suffix.empty() || hits.pixels <= hits.invalid) return;
+    add_worst(into, "median", hits.median, command);
+    add_worst(into, "p99", hits.p99, command);
+    add_worst(into, "height", hits.height_max, command);
+    add_worst(into, "shadow_wrong", percent(hits.shadow_wrong), command);
+}
+
+void add_slots(Observation& into, const d3d9::Resources& used) {
+    into.values["arithmetic"] = used.arithmetic;
+    into.values["texture"] = used.texture;
+    into.values["total"] = used.total;
+    into.values["temps"] = used.temps;
+    into.values["constants"] = used.constants;
+    into.values["samplers"] = used.samplers;
+    into.values["dependent_level"] = used.dependent_level;
+}
+
+void add_spirv(Observation& into, const check::SpirvCost& cost) {
+    into.values["spirv_alu"] = cost.alu;
+    into.values["spirv_texture"] = cost.texture;
+    into.values["spirv_branch"] = cost.branch;
+    into.values["longest_path"] = static_cast<double>(cost.longest_path);
+}
+
+Status add_lines(Observation& into, const dsl::Catalogue& catalogue,
+                 const VariantRequest& request) {
+    const auto explained = explain_variant(catalogue, request);
+    if (!explained) return explained.error();
+    for (const d3d9::Spent& spent : explained->stages.front().explanation.lines) {
+        const std::string place =
+            spent.file.empty() ? "unknown line" : fmt::format("{}:{}", spent.file, spent.line);
+        const std::string step = spent.step.empty() ? "outside steps" : spent.step;
+        into.lines[fmt::format("{} at {}", step, place)] +=
+            spent.slots.arithmetic + spent.slots.texture;
+    }
+    return Done{};
+}
 
 std::string Observation::name() const {
     return fmt::format("{}{}{} on {}", surface, settings.empty() ? "" : " ", settings, target);
@@ -126,9 +131,8 @@ Result<std::vector<Observation>> observe(const dsl::Catalogue& catalogue,
             if (!is_refusal(variant.error())) return variant.error();
             observation.refusal = variant.error().message;
         } else {
-            const auto explained = explain_variant(catalogue, row);
-            if (!explained) return explained.error();
-            add_lines(observation, *explained);
+            if (Status status = add_lines(observation, catalogue, row); !status)
+                return status.error();
             place.push_back(observations.size());
             plan.rows.push_back(row);
         }

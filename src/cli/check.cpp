@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include "src/budget/formats.h"
+#include "src/budget/planned.h"
 #include "src/budget/verdict.h"
 #include "src/cli/commands.h"
+#include "src/cli/planned.h"
 #include "src/maps/files.h"
 #include "src/scene/measurement.h"
+#include "src/scene/scene.h"
 
 namespace intaglio::cli {
 namespace {
@@ -38,6 +41,21 @@ Result<std::vector<budget::Observation>> baseline_of(const std::filesystem::path
     return budget::read_lines(path);
 }
 
+// What the budgets' scene is now, whichever kind of file it is.
+Result<std::vector<budget::Observation>> observed(const dsl::Catalogue& catalogue,
+                                                  const std::filesystem::path& file) {
+    const Result<bool> has_surfaces = scene::is_scene(file);
+    if (!has_surfaces) return has_surfaces.error();
+    if (*has_surfaces) {
+        const Result<PlannedScene> planned = planned_scene(catalogue, file.string());
+        if (!planned) return planned.error();
+        return budget::observe(catalogue, planned->scene, planned->plan);
+    }
+    const auto measurement = scene::read_measurement_with_sources(file);
+    if (!measurement) return measurement.error();
+    return budget::observe(catalogue, *measurement);
+}
+
 }  // namespace
 
 Status check(const dsl::Catalogue& catalogue, const CheckOptions& options) {
@@ -55,9 +73,7 @@ Status check(const dsl::Catalogue& catalogue, const CheckOptions& options) {
                            options.budgets);
     auto before = baseline_of(baseline);
     if (!before) return before.error();
-    const auto scene = scene::read_measurement_with_sources(budgets->scene);
-    if (!scene) return scene.error();
-    const auto now = budget::observe(catalogue, *scene);
+    const auto now = observed(catalogue, budgets->scene);
     if (!now) return now.error();
     if (options.patch) {
         const std::string text = budget::to_patch(

@@ -1,15 +1,20 @@
 // `intaglio measure`.
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <thread>
 
 #include <fmt/format.h>
 
 #include "src/cli/commands.h"
+#include "src/cli/planned.h"
 #include "src/cli/progress.h"
 #include "src/maps/png.h"
 #include "src/measure/measure.h"
 #include "src/measure/shot.h"
+#include "src/measure/sweep.h"
+#include "src/plan/sweep.h"
 #include "src/report/command.h"
 #include "src/report/picture.h"
 #include "src/report/report.h"
@@ -57,9 +62,45 @@ Status write_case_sheets(const dsl::Catalogue& catalogue, const measure::Plan& p
     return Done{};
 }
 
+// What a plan chose for each surface and target, on its own map, views and lights: a sweep.
+Status measure_planned(const dsl::Catalogue& catalogue, const MeasureOptions& options) {
+    if (!options.height.empty() || !options.baked.empty())
+        return input_error("usage",
+                           "the surfaces of a scene have maps of their own; --height and --baked "
+                           "are for measurement files",
+                           options.scene);
+    Result<PlannedScene> planned = planned_scene(catalogue, options.scene);
+    if (!planned) return planned.error();
+    if (options.size > 0) planned->scene.size = options.size;
+    measure::SweepPlan plan = plan::sweep_of(planned->scene, planned->plan);
+    plan.device = options.device;
+    measure::SweepOptions sweep;
+    sweep.folder = options.output;
+    sweep.workers = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    sweep.validation = options.validation;
+    const Result<measure::SweepSummary> summary = [&] {
+        ProgressLine progress("measured", "cases");
+        sweep.progress = [&](int, int done, int all) { progress(done, all); };
+        return measure::run_sweep(catalogue, plan, sweep);
+    }();
+    if (!summary) return summary.error();
+    const std::filesystem::path folder = std::filesystem::path(options.scene).parent_path();
+    return write_product(
+        "-",
+        fmt::format("{} shaders of {} surfaces on {} cases, {} known from before; to look at "
+                    "them:\n  intaglio report {} --maps {} -o report.html\n",
+                    plan.rows.size(), planned->scene.surfaces.size(), summary->all, summary->found,
+                    report::shell_quoted(options.output),
+                    report::shell_quoted(folder.empty() ? "." : folder.string())),
+        false);
+}
+
 }  // namespace
 
 Status measure_scene(const dsl::Catalogue& catalogue, const MeasureOptions& options) {
+    const Result<bool> has_surfaces = scene::is_scene(options.scene);
+    if (!has_surfaces) return has_surfaces.error();
+    if (*has_surfaces) return measure_planned(catalogue, options);
     std::optional<measure::MapFiles> own_map;
     const Result<std::map<std::string, std::filesystem::path>> baked = baked_files(options.baked);
     if (!baked) return baked.error();

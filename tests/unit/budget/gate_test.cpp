@@ -5,6 +5,7 @@
 
 #include "generator/intaglio.h"
 #include "src/budget/formats.h"
+#include "src/budget/planned.h"
 #include "src/budget/verdict.h"
 #include "templates/all_techniques.h"
 
@@ -103,6 +104,74 @@ TEST(Gate, BetterIsGreenAndOffersTheUpdate) {
     EXPECT_THAT(to_text(verdict), HasSubstr("\nbetter:\n"));
     EXPECT_THAT(to_text(verdict),
                 HasSubstr("intaglio check budgets.toml --update holds them to it"));
+}
+
+scene::Scene one_wall() {
+    scene::SceneSurface wall;
+    wall.name = "wall";
+    wall.map.set = *measure::make_map_set("cobbles", 32, 32, wall.scale);
+    wall.map.hash = measure::content_hash(wall.map.set);
+    wall.elevation = {50, 50};
+    wall.azimuth = {20, 20};
+    wall.targets = {"ps_2_0", "glsl_450"};
+    wall.tolerance = {{"p95", 1000}, {"missed", 100}};
+    wall.parts = {{"search", "parallax"}};
+    wall.uniforms["scale"] = {static_cast<float>(wall.scale)};
+    scene::Scene scene;
+    scene.name = "yard";
+    scene.size = 32;
+    scene.surfaces.push_back(std::move(wall));
+    return scene;
+}
+
+std::vector<Observation> planned(const dsl::Catalogue& catalogue) {
+    const scene::Scene scene = one_wall();
+    const auto plan = plan::plan_scene(catalogue, scene, {});
+    EXPECT_TRUE(plan.ok()) << to_string(plan.error());
+    if (!plan) return {};
+    const auto made = observe(catalogue, scene, *plan);
+    EXPECT_TRUE(made.ok()) << to_string(made.error());
+    if (!made) return {};
+    // What the plan was judged by in the evaluator the device draws; six digits are kept.
+    for (const plan::Choice& choice : plan->choices) {
+        EXPECT_TRUE(choice.order);
+        if (!choice.order) continue;
+        for (const Observation& one : *made) {
+            if (one.target != choice.target) continue;
+            for (const plan::Figure& figure : choice.order->errors)
+                EXPECT_NEAR(one.values.at(figure.metric), figure.value, 1e-4 * figure.value + 1e-6)
+                    << one.name() << " " << figure.metric;
+        }
+    }
+    return *made;
+}
+
+TEST(Gate, AScenesShadersAreHeldUnderTheirSurfacesNames) {
+    const auto good = planned(templates::all_techniques());
+    ASSERT_EQ(good.size(), 2u);
+    EXPECT_EQ(good[0].name(), "wall on glsl_450");
+    EXPECT_EQ(good[1].name(), "wall on ps_2_0");
+    EXPECT_TRUE(good[1].values.contains("p95_fp24"));
+    EXPECT_TRUE(judge(no_growth(), good, good, "2026-01-01").passes());
+    const auto wasteful = planned(with_parallax<Wasteful>());
+    const Verdict slower = judge(no_growth(), wasteful, good, "2026-01-01");
+    EXPECT_THAT(to_text(slower), HasSubstr("over: wall on ps_2_0: arithmetic grew from "));
+    EXPECT_TRUE(judge(no_growth(), good, wasteful, "2026-01-01").passes());
+    EXPECT_FALSE(
+        judge(no_growth(), planned(with_parallax<Careless>()), good, "2026-01-01").passes());
+}
+
+TEST(Gate, WhatAPlanCannotChooseIsRed) {
+    const dsl::Catalogue catalogue = templates::all_techniques();
+    scene::Scene scene = one_wall();
+    scene.surfaces[0].tolerance = {{"p95", 0}};
+    const auto plan = plan::plan_scene(catalogue, scene, {});
+    ASSERT_TRUE(plan.ok()) << to_string(plan.error());
+    const auto made = observe(catalogue, scene, *plan);
+    ASSERT_TRUE(made.ok()) << to_string(made.error());
+    ASSERT_EQ(made->size(), 2u);
+    EXPECT_FALSE(made->front().refusal.empty());
+    EXPECT_FALSE(judge(no_growth(), *made, {}, "2026-01-01").passes());
 }
 
 }  // namespace

@@ -1,0 +1,19 @@
+// Scenes with surfaces where a command measures: they are planned first, as `intaglio plan` would.
+#pragma once
+
+#include <string>
+
+#include "generator/dsl/catalogue.h"
+#include "src/plan/plan.h"
+
+namespace intaglio::cli {
+
+struct PlannedScene {
+    scene::Scene scene;
+    plan::Plan plan;
+};
+// With what earlier plans measured.  What cannot be satisfied has no order.  Errors: those of
+// read_scene and plan_scene.
+Result<PlannedScene> planned_scene(const dsl::Catalogue& catalogue, const std::string& file);
+
+}  // namespace intaglio::cli
