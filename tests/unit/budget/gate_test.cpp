@@ -109,7 +109,7 @@ TEST(Gate, BetterIsGreenAndOffersTheUpdate) {
 scene::Scene one_wall() {
     scene::SceneSurface wall;
     wall.name = "wall";
-    wall.map.set = *measure::make_map_set("cobbles", 32, 32, wall.scale);
+    wall.map.set = *measure::make_map_set("cobbles", 16, 16, wall.scale);
     wall.map.hash = measure::content_hash(wall.map.set);
     wall.elevation = {50, 50};
     wall.azimuth = {20, 20};
@@ -119,7 +119,7 @@ scene::Scene one_wall() {
     wall.uniforms["scale"] = {static_cast<float>(wall.scale)};
     scene::Scene scene;
     scene.name = "yard";
-    scene.size = 32;
+    scene.size = 16;
     scene.surfaces.push_back(std::move(wall));
     return scene;
 }
