@@ -16,6 +16,20 @@ std::string_view word_of(ir::LoopForm form) {
     return "schedule";
 }
 
+namespace {
+
+// Options and what they are given: "--fix", "scale=0.05".
+std::vector<std::pair<std::string, std::string>> options_of(const passes::Known& known) {
+    std::vector<std::pair<std::string, std::string>> options;
+    for (const auto& [name, numbers] : known.uniforms)
+        options.emplace_back("--fix", fmt::format("{}={}", name, fmt::join(numbers, ",")));
+    for (const auto& [name, range] : known.ranges)
+        options.emplace_back("--assume", fmt::format("{}={}..{}", name, range.least, range.most));
+    return options;
+}
+
+}  // namespace
+
 std::string text_of(const VariantRequest& request) {
     std::vector<std::string> words{request.surface, request.target};
     auto knobs = request.knobs;
@@ -30,8 +44,8 @@ std::string text_of(const VariantRequest& request) {
     if (dsl::pass_count(request.split) > 1)
         words.push_back(
             fmt::format("--split {} --pass {}", dsl::to_string(request.split), request.pass));
-    for (const std::string& known : passes::to_strings(request.known))
-        words.push_back("known " + known);
+    for (const auto& [option, value] : options_of(request.known))
+        words.push_back(option + " " + value);
     return fmt::format("{}", fmt::join(words, " "));
 }
 
@@ -47,6 +61,7 @@ std::string run_command(const Case& what, const std::vector<std::string>& map_ar
         if (form != ir::LoopForm::Unspecified)
             add({"--loop", fmt::format("{}={}", loop, word_of(form))});
     if (request.per_vertex) add({"--per-vertex"});
+    for (const auto& [option, value] : options_of(request.known)) add({option, value});
     words.insert(words.end(), map_arguments.begin(), map_arguments.end());
     // Angles are joined to their option, because they may be negative.
     add({"--scale", fmt::format("{}", what.scale), "--mesh", "map",

@@ -56,21 +56,34 @@ Status check_loops(const VariantRequest& request, const Target& target) {
     return Done{};
 }
 
-// Whatever the surface has a name for in some pass.
-Result<passes::Known> known_here(const dsl::Surface& surface, const VariantRequest& request,
-                                 const ir::Program& program) {
-    if (request.known.empty() || dsl::pass_count(request.split) == 1) return request.known;
-    const Result<std::vector<ir::Program>> all =
-        dsl::record_passes(surface, record_options(request), request.split);
-    if (!all) return all.error();
+// Of what is known, what this program has names for; an error where nothing of the surface has.
+// Its passes have other names each, and where the shading is left out its names are.
+Result<passes::Known> known_here(const dsl::Catalogue& catalogue, const dsl::Surface& surface,
+                                 const VariantRequest& request, const ir::Program& program) {
+    const passes::Known here = passes::part_of(request.known, program);
+    if (here == request.known) return here;
+    Result<std::vector<ir::Program>> others = std::vector<ir::Program>{};
+    if (dsl::pass_count(request.split) > 1) {
+        others = dsl::record_passes(surface, record_options(request), request.split);
+        if (!others) return others.error();
+    } else if (!surface.output->shaded()) {
+        VariantRequest shaded = request;
+        shaded.surface = dsl::with_part(request.surface, "output", "colour");
+        const Result<dsl::Surface> whole = surface_of(catalogue, shaded);
+        if (!whole) return whole.error();
+        Result<ir::Program> recorded = record_program(*whole, shaded);
+        if (!recorded) return recorded.error();
+        others->push_back(std::move(*recorded));
+    }
     passes::Known unknown = request.known;
-    for (const ir::Program& pass : *all) {
-        const passes::Known part = passes::part_of(request.known, pass);
+    others->push_back(program);
+    for (const ir::Program& other : *others) {
+        const passes::Known part = passes::part_of(request.known, other);
         for (const auto& one : part.uniforms) unknown.uniforms.erase(one.first);
         for (const auto& one : part.ranges) unknown.ranges.erase(one.first);
     }
-    // The sentence that says so names what this pass has.
-    return unknown.empty() ? passes::part_of(request.known, program) : request.known;
+    // The sentence that says so names what this program has.
+    return unknown.empty() ? here : request.known;
 }
 
 int longest_loop_in(const ir::Region& region) {
@@ -97,7 +110,7 @@ Result<Recorded> record_variant(const dsl::Catalogue& catalogue, const VariantRe
     if (!surface) return surface.error();
     Result<ir::Program> program = record_program(*surface, request);
     if (!program) return program.error();
-    const Result<passes::Known> known = known_here(*surface, request, *program);
+    const Result<passes::Known> known = known_here(catalogue, *surface, request, *program);
     if (!known) return known.error();
     Result<Notes> left_out = passes::assume(*program, *known);
     if (!left_out) return left_out.error();

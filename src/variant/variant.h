@@ -53,8 +53,8 @@ struct Recorded {
     ir::Program program;
     Notes left_out = {};  // a sentence for each thing that what is known made needless
 };
-// Errors: unknown names, knobs out of range; those of passes::assume.  Of a split surface each pass
-// takes what it has names for.
+// Errors: unknown names, knobs out of range; those of passes::assume.  A pass of a split surface,
+// and a surface whose output is not shaded, takes of what is known what it has names for.
 Result<Recorded> record_variant(const dsl::Catalogue& catalogue, const VariantRequest& request);
 
 // Records, optimises and prints both stages.  Errors: unknown names with the nearest right one,

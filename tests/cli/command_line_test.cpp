@@ -162,6 +162,49 @@ TEST_F(CommandLine, ExplainsWhoSpendsTheSlots) {
     expect_refused({"explain", "parallax_occlusion", "-T", "ps_2"}, "unknown-target");
 }
 
+TEST_F(CommandLine, FoldsWhatIsKnown) {
+    const std::vector<std::string> known = {
+        "--fix", "scale=0.05", "--fix", "ambient=0.1,0.1,0.1", "--assume", "view.z=0.25..1"};
+    const auto with = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), known.begin(), known.end());
+        return run(arguments);
+    };
+    const std::string glsl = with({"emit", "parallax_occlusion", "-T", "glsl_450"}).out;
+    EXPECT_THAT(glsl, HasSubstr("scale = 0.05, view.z = 0.25..1"));
+    EXPECT_THAT(glsl, HasSubstr("view.xy / view.z * 0.05"));
+    EXPECT_THAT(glsl, Not(HasSubstr("float scale")));
+    const std::string assembly = with({"emit", "parallax_occlusion", "-T", "ps_2_0"}).out;
+    EXPECT_THAT(assembly, Not(HasSubstr("uniform float1 scale")));
+    EXPECT_THAT(assembly, Not(HasSubstr("ambient:")));
+    EXPECT_THAT(assembly, HasSubstr("0.05"));
+    EXPECT_THAT(with({"explain", "parallax_occlusion", "-T", "ps_2_0"}).out,
+                HasSubstr("left out: generator/dsl/technique.cpp:"));
+    EXPECT_THAT(with({"validate", "parallax_occlusion", "-T", "hlsl_5_0"}).out,
+                HasSubstr("accepted"));
+    EXPECT_EQ(with({"run", "parallax_occlusion", "-T", "glsl_450", "--maker", "bricks", "--scale",
+                    "0.05", "--size", "16x16", "-o", path("pruned.png")})
+                  .code,
+              0);
+}
+
+TEST_F(CommandLine, WhatCannotBeKnownGetsASentence) {
+    const auto refused = [&](const std::string& option, const std::string& value,
+                             const std::string& code) {
+        return expect_refused({"emit", "parallax_occlusion", "-T", "glsl_450", option, value}, code)
+            .err;
+    };
+    EXPECT_THAT(refused("--fix", "scal=1", "unknown-uniform"), HasSubstr("did you mean 'scale'"));
+    EXPECT_THAT(refused("--fix", "ambient=1", "uniform-components"),
+                HasSubstr("the uniform ambient has 3 components; 1 is given"));
+    EXPECT_THAT(refused("--fix", "scale=deep", "known-syntax"), HasSubstr("'scale=deep'"));
+    EXPECT_THAT(refused("--assume", "view.z=1..", "known-syntax"), HasSubstr("view.z=0.25..1"));
+    EXPECT_THAT(refused("--assume", "vew.z=0..1", "unknown-value"),
+                HasSubstr("did you mean 'view'"));
+    EXPECT_THAT(refused("--assume", "view=0..1", "value-component"), HasSubstr("view.x to view.z"));
+    EXPECT_THAT(refused("--assume", "view.z=1..0", "range-empty"), HasSubstr("1..0"));
+    EXPECT_THAT(refused("--assume", "view.z=2..3", "range-impossible"), HasSubstr("view"));
+}
+
 TEST_F(CommandLine, DrawsByWayOfBytecode) {
     for (const char* target : {"ps_3_0", "glsl_450"})
         EXPECT_EQ(run({"run", "parallax_occlusion", "-T", target, "--maker", "cobbles", "--size",
