@@ -13,8 +13,6 @@ namespace {
 
 using namespace ir;
 
-// Instructions that the iterations of one loop may take, those of loops inside it included.
-constexpr long affordable = 20000;
 // Rounds of a widened loop before what still grows becomes everything.
 constexpr int patient_rounds = 3;
 // normalize(v): how much longer than 1 a device's roundings may leave it.
@@ -22,8 +20,11 @@ constexpr double unit_share = 0x1p-18;
 
 class Analysis {
   public:
-    Analysis(const Module& module, const Assumptions& assumptions)
-        : module_(module), assumptions_(assumptions), current_(module.values.size()) {
+    Analysis(const Module& module, const Assumptions& assumptions, long affordable)
+        : module_(module),
+          assumptions_(assumptions),
+          affordable_(affordable),
+          current_(module.values.size()) {
         facts_.values.resize(module.values.size());
     }
 
@@ -126,14 +127,14 @@ class Analysis {
         return exits.certain;
     }
 
-    static long cost(const Region& region) {
+    long cost(const Region& region) const {
         long sum = 0;
         for (const Instruction& instruction : region.body) {
             ++sum;
             for (const Region& inner : instruction.regions)
                 sum += cost(inner) *
                        (instruction.op == Op::Loop ? std::max(instruction.loop.trip_count, 1) : 1);
-            sum = std::min(sum, affordable + 1);
+            sum = std::min(sum, affordable_ + 1);
         }
         return sum;
     }
@@ -156,7 +157,7 @@ class Analysis {
         Exits exits;
         int ran = 0;
         ++depth_;
-        if (trips * cost(loop.regions[0]) <= affordable)
+        if (trips * cost(loop.regions[0]) <= affordable_)
             while (ran < trips && iterate(loop, Range::between(ran, ran), carried, exits)) ++ran;
         else
             ran = visit_widened(loop, carried, exits);
@@ -392,6 +393,7 @@ class Analysis {
 
     const Module& module_;
     const Assumptions& assumptions_;
+    const long affordable_;
     std::vector<Ranges> current_;
     Definitions definitions_;
     RangeFacts facts_;
@@ -400,8 +402,9 @@ class Analysis {
 
 }  // namespace
 
-RangeFacts analyze_ranges(const ir::Module& module, const Assumptions& assumptions) {
-    return Analysis(module, assumptions).run();
+RangeFacts analyze_ranges(const ir::Module& module, const Assumptions& assumptions,
+                          long affordable) {
+    return Analysis(module, assumptions, affordable).run();
 }
 
 }  // namespace intaglio::passes

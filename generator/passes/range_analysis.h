@@ -29,7 +29,12 @@ struct RangeFacts {
     std::optional<ir::ValueId> impossible;
 };
 
+// Instructions that the iterations of one loop may take, those of loops inside it included; a loop
+// that takes more is entered once for all iterations.
+inline constexpr long affordable_iterations = 20000;
+
 // The module must verify.
-RangeFacts analyze_ranges(const ir::Module& module, const Assumptions& assumptions);
+RangeFacts analyze_ranges(const ir::Module& module, const Assumptions& assumptions,
+                          long affordable = affordable_iterations);
 
 }  // namespace intaglio::passes

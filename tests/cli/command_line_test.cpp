@@ -187,6 +187,26 @@ TEST_F(CommandLine, FoldsWhatIsKnown) {
               0);
 }
 
+// The shading has the name; what is left of it is drawn as well.
+TEST_F(CommandLine, PartsOfASurfaceTakeWhatTheyHaveNamesFor) {
+    const auto emitted = [&](const std::string& surface, std::vector<std::string> more) {
+        more.insert(more.begin(), {"emit", surface, "-T", "glsl_450"});
+        return run(more);
+    };
+    const std::string displaced = "parallax_occlusion,output=displaced";
+    EXPECT_EQ(emitted(displaced, {"--fix", "ambient=0,0,0"}).code, 0);
+    EXPECT_THAT(emitted(displaced, {"--fix", "ambiant=0,0,0"}).err, HasSubstr("unknown-uniform"));
+    for (const char* pass : {"1", "2"})
+        EXPECT_EQ(emitted("parallax_occlusion", {"--split", "shading", "--pass", pass, "--fix",
+                                                 "ambient=0,0,0", "--fix", "scale=0.1"})
+                      .code,
+                  0);
+    EXPECT_THAT(emitted("parallax_occlusion",
+                        {"--split", "shading", "--pass", "1", "--fix", "ambiant=0,0,0"})
+                    .err,
+                HasSubstr("unknown-uniform"));
+}
+
 TEST_F(CommandLine, WhatCannotBeKnownGetsASentence) {
     const auto refused = [&](const std::string& option, const std::string& value,
                              const std::string& code) {
