@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -48,7 +49,7 @@ class Chooser {
     Result<Choice> run();
 
   private:
-    Status pair_up();
+    Status pair_up(bool right, bool others);
     Status predict(Pair& pair);
     Status judge(Pair& pair);
     Status judge_batch(const std::vector<Pair*>& some);
@@ -67,7 +68,6 @@ class Chooser {
     const Pair* refused_below(const Pair& pair) const;
     std::string over_budget(const std::map<std::string, double>& costs) const;
     void set_wrong(Pair& pair);
-    void losers_of_ladders(Choice& choice) const;
 
     const SurfaceWork& work_;
     const Target& target_;
@@ -98,62 +98,78 @@ bool better(const Pair& a, const Pair& b) {
     return a.candidate.text < b.candidate.text;
 }
 
+// What a shadow adds to one search it adds to another with nearly the same hits.
 Status Chooser::predict(Pair& pair) {
     pair.candidate.text = text_of(pair);
-    pair.candidate.request = request(pair);
+    const Tried& base = work_.searches[work_.base];
+    Trial alone = *pair.search->trial, under = *base.trial, shadowed = under;
+    if (pair.shadow) shadowed = *pair.shadow->trial;
     if (straight()) {
-        const Result<Trial> size =
-            work_.kept.run(work_.site, pair.candidate.request, work_.hit_rays, Ask::Size);
-        if (!size) return size.error();
-        pair.size = *size;
-        pair.candidate.operations = size->operations;
-        pair.candidate.reads = size->reads;
-    } else {
-        // What a shadow adds to one search it adds to another with nearly the same hits.
-        const Trial &alone = *pair.search->trial, &under = *work_.searches[work_.base].trial;
-        pair.candidate.operations = alone.operations;
-        pair.candidate.reads = alone.reads;
+        const auto size = [&](const Tried& search, const Tried* shadow, Trial& into) -> Status {
+            VariantRequest request =
+                work_.request("glsl_450", search.rung, shadow ? &shadow->rung : nullptr);
+            const Result<Trial> trial =
+                work_.kept.run(work_.site, request, work_.hit_rays, Ask::Size);
+            if (!trial) return trial.error();
+            into = *trial;
+            return Done{};
+        };
+        if (Status status = size(*pair.search, nullptr, alone); !status) return status;
         if (pair.shadow) {
-            pair.candidate.operations += pair.shadow->trial->operations - under.operations;
-            pair.candidate.reads += pair.shadow->trial->reads - under.reads;
+            if (Status status = size(base, nullptr, under); !status) return status;
+            if (Status status = size(base, pair.shadow, shadowed); !status) return status;
+        } else {
+            shadowed = under;
         }
-        pair.candidate.operations += work_.shading.operations;
-        pair.candidate.reads += work_.shading.reads;
     }
-    pair.predicted = pair.candidate.operations + work_.read_weight * pair.candidate.reads;
-    pair.candidate.cost = pair.predicted;
+    Candidate& candidate = pair.candidate;
+    candidate.operations = alone.operations + shadowed.operations - under.operations;
+    candidate.reads = alone.reads + shadowed.reads - under.reads;
+    if (straight()) {
+        pair.size.operations = candidate.operations;
+        pair.size.reads = candidate.reads;
+    } else {
+        candidate.operations += work_.shading.operations;
+        candidate.reads += work_.shading.reads;
+    }
+    pair.predicted = candidate.operations + work_.read_weight * candidate.reads;
+    candidate.cost = pair.predicted;
     return Done{};
 }
 
-// All that the ladders leave: both right, or with --exhaustive all.
-Status Chooser::pair_up() {
-    const bool all = work_.options.exhaustive;
+// Pairs that are right as far as their parts say; `others`: those that are not.
+Status Chooser::pair_up(bool right, bool others) {
+    const std::size_t before = pairs_.size();
+    const auto limit = tolerance_.find("shadow_wrong");
+    const auto of_shadow = [&](const std::optional<Trial>& trial) {
+        if (limit == tolerance_.end() || !trial) return 0.0;
+        return wrongness({{limit->first, limit->second}}, *trial, false);
+    };
+    const auto add = [&](const Tried& search, const Tried* shadow, double wrong) {
+        if (wrong <= 1 ? right : others) pairs_.push_back({&search, shadow, 0, wrong, {}});
+    };
     for (const Tried& search : work_.searches) {
         if (!search.trial || !search.trial->refusal.empty()) continue;
         const double wrong = wrongness(tolerance_, *search.trial, true);
         if (!work_.wants_shadow()) {
-            pairs_.push_back({&search, nullptr, 0, wrong, {}});
+            add(search, nullptr, wrong);
             continue;
         }
+        // Under the best of shadows its hits are still where they are.
+        const double least = of_shadow(search.best_lit);
         for (const Tried& shadow : work_.shadows) {
             if (!shadow.trial || !shadow.trial->refusal.empty()) continue;
-            const auto limit = tolerance_.find("shadow_wrong");
-            const double of_shadow =
-                limit == tolerance_.end()
-                    ? 0
-                    : wrongness({{limit->first, limit->second}}, *shadow.trial, false);
-            // Combinations of two wrongs are as wrong as either.
-            if (!all && wrong > 1 && of_shadow > shadow_slack) continue;
-            pairs_.push_back({&search, &shadow, 0, std::max(wrong, of_shadow / shadow_slack), {}});
+            const double own = of_shadow(shadow.trial);
+            add(search, &shadow, std::max({wrong, least / shadow_slack, own / shadow_slack}));
         }
     }
     std::vector<std::optional<Diagnostic>> errors(pairs_.size());
-    in_parallel(pairs_.size(), work_.options.workers, [&](std::size_t i) {
-        if (Status status = predict(pairs_[i]); !status) errors[i] = status.error();
+    in_parallel(pairs_.size() - before, work_.options.workers, [&](std::size_t i) {
+        if (Status status = predict(pairs_[before + i]); !status) errors[i] = status.error();
     });
     for (const auto& error : errors)
         if (error) return *error;
-    std::stable_sort(pairs_.begin(), pairs_.end(), better);
+    std::stable_sort(pairs_.begin() + static_cast<std::ptrdiff_t>(before), pairs_.end(), better);
     return Done{};
 }
 
@@ -206,6 +222,7 @@ std::string Chooser::far_too_long(const Pair& pair) const {
 // Whether the target has it, and what it costs there.
 Status Chooser::judge(Pair& pair) {
     Candidate& candidate = pair.candidate;
+    if (candidate.request.surface.empty()) candidate.request = request(pair);
     if (candidate.why = far_too_long(pair); !candidate.why.empty()) {
         candidate.fate = Fate::Refused;
         candidate.judged = true;
@@ -377,53 +394,19 @@ Status Chooser::find_nearest() {
     return Done{};
 }
 
-// Rungs that never came to a pair of their own.
-void Chooser::losers_of_ladders(Choice& choice) const {
-    const auto add = [&](const std::vector<Tried>& ladder, const char* kind, bool hits_alone) {
-        std::map<std::pair<std::string, std::string>, int> skipped;
-        for (const Tried& one : ladder) {
-            if (!one.trial) {
-                ++skipped[{one.rung.technique, one.skipped}];
-                continue;
-            }
-            const std::string why = one.trial->refusal.empty()
-                                        ? why_wrong(tolerance_, *one.trial, hits_alone)
-                                        : one.trial->refusal;
-            const bool in_pairs = std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
-                return pair.search == &one || pair.shadow == &one;
-            });
-            if (why.empty() || in_pairs) continue;
-            Candidate candidate;
-            candidate.text = kind + one.rung.text();
-            candidate.fate = one.trial->refusal.empty() ? Fate::Wrong : Fate::Refused;
-            candidate.why = why;
-            candidate.operations = one.trial->operations;
-            candidate.reads = one.trial->reads;
-            candidate.cost = work_.cost(*one.trial);
-            candidate.errors = one.trial->errors;
-            choice.candidates.push_back(std::move(candidate));
-        }
-        for (const auto& [what, count] : skipped) {
-            Candidate candidate;
-            candidate.text = fmt::format("{}{}, {} more setting{}", kind, what.first, count,
-                                         count == 1 ? "" : "s");
-            candidate.why = what.second;
-            choice.candidates.push_back(std::move(candidate));
-        }
-    };
-    add(work_.searches, "", true);
-    add(work_.shadows, "shadow ", false);
-}
-
 Result<Choice> Chooser::run() {
     Choice choice;
     choice.surface = work_.surface.name;
     choice.target = target_.name;
-    if (Status status = pair_up(); !status) return status.error();
+    if (Status status = pair_up(true, work_.options.exhaustive); !status) return status.error();
     if (Status status = find_best(); !status) return status.error();
     if (Status status = try_schedules(); !status) return status.error();
-    if (best_ == nullptr)
+    if (best_ == nullptr) {
+        refused_.clear();  // which pointed into pairs_
+        if (!work_.options.exhaustive)
+            if (Status status = pair_up(false, true); !status) return status.error();
         if (Status status = find_nearest(); !status) return status.error();
+    }
 
     std::stable_sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
         if (a.candidate.judged != b.candidate.judged) return a.candidate.judged;
@@ -466,7 +449,9 @@ Result<Choice> Chooser::run() {
         choice.candidates.push_back(std::move(candidate));
     }
     if (choice.chosen) choice.best_that_fits = choice.cheapest_right = {};
-    losers_of_ladders(choice);
+    std::set<const Tried*> paired;
+    for (const Pair& pair : pairs_) paired.insert({pair.search, pair.shadow});
+    add_losers_of_ladders(work_, tolerance_, paired, choice);
     choice.dropped = work_.dropped;
     if (choice.chosen)
         if (Status status = finish(work_, choice); !status) return status.error();

@@ -83,21 +83,20 @@ Status climb(SurfaceWork& work, std::vector<Tried>& all, const Rays& rays, const
     return Done{};
 }
 
-// The cheapest right one, else the least wrong.
-std::size_t best_of(const SurfaceWork& work, const std::vector<Tried>& all) {
+// By this metric, of those that were tried; the cheaper of two that are as good.
+std::size_t most_accurate(const SurfaceWork& work, const std::vector<Tried>& all,
+                          const std::string& metric) {
     std::size_t best = 0;
-    double best_value = INFINITY;
-    bool any_right = false;
+    double least = INFINITY;
     for (std::size_t i = 0; i < all.size(); ++i) {
-        const Tried& one = all[i];
-        if (!one.trial || (any_right && !one.right)) continue;
-        const double value =
-            one.right ? work.cost(*one.trial) : wrongness(work.strictest, *one.trial, true);
-        if ((one.right && !any_right) || value < best_value) {
+        if (!all[i].trial || !all[i].trial->errors.contains(metric)) continue;
+        const double value = all[i].trial->errors.at(metric);
+        const bool cheaper = value == least && all[best].trial &&
+                             work.cost(*all[i].trial) < work.cost(*all[best].trial);
+        if (value < least || cheaper) {
             best = i;
-            best_value = value;
+            least = value;
         }
-        any_right = any_right || one.right;
     }
     return best;
 }
@@ -120,6 +119,27 @@ Status measure_shading(SurfaceWork& work) {
     if (!whole) return whole.error();
     work.shading.operations = whole->operations - under.trial->operations;
     work.shading.reads = whole->reads - under.trial->reads;
+    return Done{};
+}
+
+// How wrong a search that is right makes even the best shadow.
+Status light_searches(SurfaceWork& work, const Tried& best) {
+    std::vector<Tried*> right;
+    for (Tried& search : work.searches)
+        if (search.trial && wrongness(work.loosest, *search.trial, true) <= 1)
+            right.push_back(&search);
+    std::vector<std::optional<Diagnostic>> errors(right.size());
+    in_parallel(right.size(), work.options.workers, [&](std::size_t i) {
+        const VariantRequest request =
+            SurfaceWork::unpruned(work.request("glsl_450", right[i]->rung, &best.rung));
+        Result<Trial> trial = work.kept.run(work.site, request, work.shadow_rays, Ask::Errors);
+        if (trial)
+            right[i]->best_lit = std::move(*trial);
+        else
+            errors[i] = trial.error();
+    });
+    for (const auto& error : errors)
+        if (error) return *error;
     return Done{};
 }
 
@@ -223,7 +243,7 @@ Status climb_ladders(SurfaceWork& work) {
         },
         [&](const Trial& trial) { return wrongness(tolerance, trial, true) <= 1; });
     if (!status) return status;
-    work.base = best_of(work, work.searches);
+    work.base = most_accurate(work, work.searches, "p95");
     if (Status shaded = measure_shading(work); !shaded) return shaded;
     if (!work.wants_shadow()) return Done{};
 
@@ -238,7 +258,7 @@ Status climb_ladders(SurfaceWork& work) {
             work.shadows.push_back({rung, {}, {}});
     }
     const Rung& under = work.searches[work.base].rung;
-    return climb(
+    status = climb(
         work, work.shadows, work.shadow_rays,
         [&](const Rung& rung) { return SurfaceWork::unpruned(work.request(target, under, &rung)); },
         [&](const Trial& trial) {
@@ -246,6 +266,8 @@ Status climb_ladders(SurfaceWork& work) {
             return limit == tolerance.end() ||
                    wrongness({{limit->first, limit->second}}, trial, false) <= 1;
         });
+    if (!status || work.shadows.empty()) return status;
+    return light_searches(work, work.shadows[most_accurate(work, work.shadows, "shadow_wrong")]);
 }
 
 }  // namespace intaglio::plan

@@ -150,6 +150,8 @@ Status derive(SurfaceWork& work) {
         for (const auto& [metric, limit] : work.surface.tolerance_on(target)) {
             const auto [place, is_new] = work.strictest.try_emplace(metric, limit);
             if (!is_new) place->second = std::min(place->second, limit);
+            const auto [loose, first] = work.loosest.try_emplace(metric, limit);
+            if (!first) loose->second = std::max(loose->second, limit);
         }
     derive_parts(work);
     if (Status status = check_names(work); !status) return status;

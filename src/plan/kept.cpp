@@ -82,7 +82,9 @@ Result<Trial> Kept::run(const Site& site, const VariantRequest& request, const R
     const std::string key = hash.hex();
     return *trials_.get(key, [&]() -> Result<Trial> {
         const std::filesystem::path file =
-            folder_.empty() ? folder_ : folder_ / key.substr(0, 2) / (key + ".json");
+            // What is only counted is counted again in less time than a file takes.
+            folder_.empty() || ask == Ask::Size ? std::filesystem::path()
+                                                : folder_ / key.substr(0, 2) / (key + ".json");
         if (!file.empty()) {
             const auto bytes = maps::read_file(file, largest_file);
             if (bytes) {
@@ -94,7 +96,7 @@ Result<Trial> Kept::run(const Site& site, const VariantRequest& request, const R
                 }
             }
         }
-        ++tried_;
+        if (ask != Ask::Size) ++tried_;
         Result<Trial> trial = site.run(request, rays, ask);
         if (trial && !file.empty()) {
             // What cannot be kept is measured again: no reason to fail.

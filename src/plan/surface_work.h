@@ -32,6 +32,7 @@ struct Tried {
     std::optional<Trial> trial;  // Ask::Errors
     std::string skipped;         // why not tried
     bool right = false;
+    std::optional<Trial> best_lit{};  // of a right search: with the most accurate shadow
 };
 
 // A schedule beside the technique's own.
@@ -50,11 +51,11 @@ struct SurfaceWork {
     Common common{};
     measure::ReliefFacts facts{};
     measure::Directions views{};
-    scene::Tolerance strictest{};  // of all its targets
-    Rays hit_rays{};               // without a light
-    Rays shadow_rays{};            // with those that can shadow
+    scene::Tolerance strictest{}, loosest{};  // of all its targets
+    Rays hit_rays{};                          // without a light
+    Rays shadow_rays{};                       // with those that can shadow
     std::vector<Tried> searches{}, shadows{};
-    std::size_t base = 0;  // of searches: whose hits the shadows were tried on
+    std::size_t base = 0;  // of searches: the most accurate, whose hits the shadows were tried on
     Trial shading{};       // what all that is neither search nor shadow costs
     std::vector<Dropped> dropped{};
 
@@ -91,6 +92,10 @@ Status climb_ladders(SurfaceWork& work);
 double wrongness(const scene::Tolerance& tolerance, const Trial& trial, bool hits_alone);
 // "p95 is 3.2 texels, of at most 1", of the metric that is the most over.
 std::string why_wrong(const scene::Tolerance& tolerance, const Trial& trial, bool hits_alone);
+
+// Rungs that never came to a pair of their own, behind the candidates.
+void add_losers_of_ladders(const SurfaceWork& work, const scene::Tolerance& tolerance,
+                           const std::set<const Tried*>& paired, Choice& choice);
 
 Result<Choice> choose(const SurfaceWork& work, const std::string& target);
 
