@@ -218,6 +218,8 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
             "explain", "Who spends the slots or operations of a variant, by step and line");
         add_variant(*command, options->variant);
         add_pass(*command, options->variant);
+        command->add_flag("--without", options->without,
+                          "Also what each guard and feature costs, by leaving it out");
         command->add_flag("--json", options->json, "For programs");
         command->callback([&chosen, &catalogue, options] {
             chosen = [&, options] { return explain(catalogue, *options); };

@@ -72,6 +72,7 @@ Status validate(const dsl::Catalogue& catalogue, const ValidateOptions& options)
 
 struct ExplainOptions {
     VariantOptions variant;
+    bool without = false;  // also what each guard and feature costs, by leaving it out
     bool json = false;
 };
 // Says who spends the slots; of a refused variant too, which is no error here.

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/cli/commands.h"
+#include "src/measure/without.h"
 
 namespace intaglio::cli {
 namespace {
@@ -96,6 +97,58 @@ std::string text_of(const ExplainedVariant& variant, const std::string& target) 
     return text;
 }
 
+std::string_view name_of(measure::Omission::Kind kind) {
+    using enum measure::Omission::Kind;
+    switch (kind) {
+        case Guard: return "guard";
+        case Part: return "part";
+        case Knob: return "knob";
+        case Flag: return "flag";
+    }
+    return {};
+}
+
+// What is worth saying of a limit: that it is kept or broken where the whole is not so, and by how
+// much it is broken.
+std::string fit_text(const measure::Spending& whole, const measure::Spending& without) {
+    if (without.fits && whole.fits) return {};
+    const std::string_view word = without.fits ? "fits" : "refused";
+    return without.limit.empty() ? fmt::format("  {}", word)
+                                 : fmt::format("  {}: {}", word, without.limit);
+}
+
+std::string without_text(const measure::Omissions& omissions) {
+    const measure::Spending& with = omissions.with;
+    std::string text =
+        fmt::format("\n  {:<{}} arithmetic  texture       change\n", "without", name_width);
+    for (const measure::Omission& row : omissions.rows) {
+        const d3d9::Slots& slots = row.without.slots;
+        text += fmt::format(
+            "  {:<{}} {:>10} {:>8} {:>+6} {:>+5}{}\n",
+            row.kind == measure::Omission::Kind::Guard ? "guard, " + row.what : row.what,
+            name_width, slots.arithmetic, slots.texture, slots.arithmetic - with.slots.arithmetic,
+            slots.texture - with.slots.texture, fit_text(with, row.without));
+    }
+    return text;
+}
+
+ordered_json json_of(const measure::Spending& spending) {
+    ordered_json json = {{"arithmetic", spending.slots.arithmetic},
+                         {"texture", spending.slots.texture},
+                         {"fits", spending.fits}};
+    if (!spending.limit.empty()) json["limit"] = spending.limit;
+    return json;
+}
+
+ordered_json json_of(const measure::Omissions& omissions) {
+    ordered_json json = {{"with", json_of(omissions.with)}, {"rows", ordered_json::array()}};
+    for (const measure::Omission& row : omissions.rows) {
+        json["rows"].push_back({{"kind", name_of(row.kind)}, {"what", row.what}});
+        json["rows"].back().update(json_of(row.without));
+    }
+    return json;
+}
+
 ordered_json json_of(const d3d9::Spent& spent) {
     return {{"step", spent.step},
             {"file", spent.file},
@@ -155,9 +208,15 @@ Status explain(const dsl::Catalogue& catalogue, const ExplainOptions& options) {
     if (!variant) return variant.error();
     for (const std::string& note : variant->notes) fmt::print(stderr, "note: {}\n", note);
     const std::string& target = options.variant.target;
-    return write_product(
-        "-", options.json ? json_of(*variant, target).dump(2) + "\n" : text_of(*variant, target),
-        false);
+    ordered_json json = json_of(*variant, target);
+    std::string text = text_of(*variant, target);
+    if (options.without) {
+        const Result<measure::Omissions> omissions = measure::leave_out_each(catalogue, *request);
+        if (!omissions) return omissions.error();
+        json["without"] = json_of(*omissions);
+        text += without_text(*omissions);
+    }
+    return write_product("-", options.json ? json.dump(2) + "\n" : text, false);
 }
 
 }  // namespace intaglio::cli

@@ -101,16 +101,19 @@ Result<ExplainedVariant> explain_variant(const dsl::Catalogue& catalogue,
                                          const VariantRequest& request) {
     const Result<Recorded> recorded = record_variant(catalogue, request);
     if (!recorded) return recorded.error();
-    const std::optional<d3d9::Profile> profile = profile_of(*recorded->target);
+    return explain_recorded(*recorded);
+}
+
+Result<ExplainedVariant> explain_recorded(const Recorded& recorded) {
+    const std::optional<d3d9::Profile> profile = profile_of(*recorded.target);
     ExplainedVariant result;
-    result.name = recorded->program.name;
-    result.settings = recorded->program.settings;
-    const Status status = !profile ? explain_text(result, *recorded)
-                          : is_pixel(*profile)
-                              ? explain_pixel(result, recorded->program, *profile)
-                              : explain_vertex(result, recorded->program, *profile);
+    result.name = recorded.program.name;
+    result.settings = recorded.program.settings;
+    const Status status = !profile             ? explain_text(result, recorded)
+                          : is_pixel(*profile) ? explain_pixel(result, recorded.program, *profile)
+                                               : explain_vertex(result, recorded.program, *profile);
     if (!status) return status.error();
-    result.left_out = recorded->left_out;
+    result.left_out = recorded.left_out;
     return result;
 }
 

@@ -32,5 +32,7 @@ struct ExplainedVariant {
 // Errors: those of make_variant but for refusals by budget.
 Result<ExplainedVariant> explain_variant(const dsl::Catalogue& catalogue,
                                          const VariantRequest& request);
+// The same of what was recorded, and perhaps changed since.
+Result<ExplainedVariant> explain_recorded(const Recorded& recorded);
 
 }  // namespace intaglio

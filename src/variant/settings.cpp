@@ -139,7 +139,7 @@ std::vector<Setting> all_settings(const dsl::Catalogue& catalogue) {
     const Setting relief{"relief", "search=parallax_occlusion,output=displaced", {}};
     settings.push_back(relief);
     add_knobs(catalogue, settings, relief, dsl::ReliefKnobs().knobs());
-    const Setting lights{"lights", "search=none,shadow=horizon", {}};
+    const Setting lights{"lights", "search=none,shadow=fur_depth", {}};
     settings.push_back(lights);
     add_knobs(catalogue, settings, lights, dsl::LightKnobs().knobs());
     for (const dsl::Preset& preset : catalogue.presets)

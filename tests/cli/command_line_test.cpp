@@ -225,6 +225,33 @@ TEST_F(CommandLine, WhatCannotBeKnownGetsASentence) {
     EXPECT_THAT(refused("--assume", "view.z=2..3", "range-impossible"), HasSubstr("view"));
 }
 
+TEST_F(CommandLine, ExplainsByLeavingOut) {
+    const std::vector<std::string> asked = {"explain", "bump", "-T", "ps_2_0", "-D", "lights=4"};
+    EXPECT_THAT(run(asked).out, Not(HasSubstr("without")));
+    std::vector<std::string> without = asked;
+    without.emplace_back("--without");
+    const Outcome text = run(without);
+    EXPECT_EQ(text.code, 0) << text.err;
+    EXPECT_THAT(text.out, HasSubstr("\n  lights=2 "));
+    EXPECT_THAT(text.out, HasSubstr("\n  guard, zero vector"));
+    EXPECT_THAT(text.out, HasSubstr(" of 64 arithmetic slots"));
+    without.emplace_back("--json");
+    EXPECT_THAT(run(without).out, HasSubstr("\"what\": \"shading=ambient_only\""));
+}
+
+TEST_F(CommandLine, AimsEachLight) {
+    const auto lit = [&](const std::string& azimuths, const std::string& picture) {
+        return run({"run", "bump", "-T", "glsl_450", "-D", "lights=2", "--maker", "bricks",
+                    "--size", "32x32", "--light-elevation", "45,30", "--light-azimuth", azimuths,
+                    "-o", path(picture)});
+    };
+    EXPECT_EQ(lit("20,200", "a.png").code, 0);
+    EXPECT_EQ(lit("20,120", "b.png").code, 0);
+    EXPECT_NE(maps::read_png(path("a.png"))->texels, maps::read_png(path("b.png"))->texels);
+    EXPECT_THAT(lit("20,200,90", "c.png").err,
+                HasSubstr("3 lights are aimed and the surface has 2"));
+}
+
 TEST_F(CommandLine, DrawsByWayOfBytecode) {
     for (const char* target : {"ps_3_0", "glsl_450"})
         EXPECT_EQ(run({"run", "parallax_occlusion", "-T", target, "--maker", "cobbles", "--size",
