@@ -24,6 +24,8 @@ struct Observation {
     // Slots or operations of the pixel stage (variant/explain.h) by "step at file:line".
     std::map<std::string, double> lines;
     std::string refusal;  // of a variant that its target does not hold; then nothing else is known
+    // Asked for by a scene, which is not served by a refusal that was there before as well.
+    bool wanted = false;
 
     // "parallax_occlusion taps=8 on ps_2_0"
     std::string name() const;

@@ -37,7 +37,7 @@ Result<std::vector<Observation>> observe(const dsl::Catalogue& catalogue, const 
     for (const scene::SceneSurface& surface : scene.surfaces)
         for (const plan::Choice& choice : plan.choices) {
             if (choice.surface != surface.name) continue;
-            Observation observation{choice.surface, choice.target, "", {}, {}, {}, {}};
+            Observation observation{choice.surface, choice.target, "", {}, {}, {}, {}, true};
             if (choice.order) {
                 place.push_back(observations.size());
                 if (Status status = add_lines(observation, catalogue, choice.order->request);

@@ -163,7 +163,7 @@ Verdict judge(const Budgets& budgets, const std::vector<Observation>& now,
         const Observation* before = find(baseline, observation);
         if (!observation.refusal.empty()) {
             // A variant that was refused before, too, is what the scene's owner knows.
-            if (!before || before->refusal.empty())
+            if (!before || before->refusal.empty() || observation.wanted)
                 add(whole(observation, Finding::Kind::Unknown,
                           fmt::format("refused: {}", observation.refusal)));
             continue;

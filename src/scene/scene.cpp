@@ -162,7 +162,8 @@ Entry read_surface(Reader& reader, const Value& table, const Common& common,
     surface.budget = merged(
         common.budget, read_limits(reader, table, "budget", "[surface.budget]", Limited::Cost));
     for (const std::string& target : surface.targets)
-        if (known && surface.tolerance_on(target).empty() && !surface.parts.contains("search"))
+        if (known && surface.tolerance.empty() && !surface.target_tolerance.contains(target) &&
+            !surface.parts.contains("search"))
             reader.refuse(table.position, "scene-missing",
                           fmt::format("nothing says how wrong this surface may be on {}: give a "
                                       "[tolerance], or pin its search",
@@ -300,7 +301,12 @@ std::string_view name_of(Feature feature) {
 Tolerance SceneSurface::tolerance_on(const std::string& target) const {
     Limits limits = target_tolerance;
     limits["*"] = tolerance;
-    return limits_on(limits, target);
+    Tolerance on = limits_on(limits, target);
+    const bool shadowed = std::any_of(lights.begin(), lights.end(), [](const SurfaceLight& light) {
+        return light.shadows && light.elevation.most > 0;
+    });
+    if (!shadowed || !features.contains(Feature::Shadow)) on.erase("shadow_wrong");
+    return on;
 }
 
 Budget SceneSurface::budget_on(const std::string& target) const {

@@ -112,7 +112,8 @@ struct SceneSurface {
     std::map<std::string, std::vector<float>> uniforms;
 
     // What holds on one target, all together.  Metrics that no variant of the target has (slots of
-    // a language without) are in neither.
+    // a language without) are in neither; shadow_wrong only where shadows are wanted of a light
+    // that reaches the surface.
     Tolerance tolerance_on(const std::string& target) const;
     Budget budget_on(const std::string& target) const;
 };

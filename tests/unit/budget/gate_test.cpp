@@ -172,6 +172,7 @@ TEST(Gate, WhatAPlanCannotChooseIsRed) {
     ASSERT_EQ(made->size(), 2u);
     EXPECT_FALSE(made->front().refusal.empty());
     EXPECT_FALSE(judge(no_growth(), *made, {}, "2026-01-01").passes());
+    EXPECT_FALSE(judge(no_growth(), *made, *made, "2026-01-01").passes());
 }
 
 }  // namespace

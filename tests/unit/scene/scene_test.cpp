@@ -107,6 +107,21 @@ TEST(SceneOfSurfaces, ToleranceAndBudgetComeFromTheMostParticular) {
                 UnorderedElementsAre(Pair("reads", 20), Pair("arithmetic", 200)));
 }
 
+TEST(SceneOfSurfaces, ShadowsAreJudgedWhereTheyAreWanted) {
+    const Scene scene =
+        scene_of(head + tolerance + "shadow_wrong = 5\n[[light]]\nname = 'sun'\nelevation = 30\n" +
+                 "[[light]]\nname = 'lamp'\nplace = [0, 0, 1]\nshadows = false\n" + wall +
+                 "features = 'shadow'\n" +
+                 "[[surface]]\nname = 'plain'\nmaker = 'bricks'\nwidth = 8\n"
+                 "[[surface]]\nname = 'lit'\nmaker = 'bricks'\nwidth = 8\nfeatures = 'shadow'\n"
+                 "lights = 'lamp'\n");
+    ASSERT_EQ(scene.surfaces.size(), 3u);
+    EXPECT_EQ(scene.surfaces[0].tolerance_on("glsl_450").count("shadow_wrong"), 1u);
+    EXPECT_EQ(scene.surfaces[1].tolerance_on("glsl_450").count("shadow_wrong"), 0u);
+    EXPECT_EQ(scene.surfaces[2].tolerance_on("glsl_450").count("shadow_wrong"), 0u);
+    EXPECT_EQ(scene.surfaces[2].tolerance_on("glsl_450").count("p95"), 1u);
+}
+
 TEST(SceneOfSurfaces, LightsAreSeenFromEachSurface) {
     const Scene scene = scene_of(
         head + tolerance +
