@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -19,6 +20,8 @@ namespace {
 // So much cheaper than what the ratios of others to their prediction say a variant may be.
 // `plan --exhaustive` measures what it is: docs/plan.md.
 constexpr double surprise = 0.8;
+// The same of a variant whose techniques others have in other settings.
+constexpr double kin_surprise = 0.9;
 constexpr std::size_t batch = 4;  // judged at once, whatever the number of workers
 // On the shadows' ladder a little wrong on one search's hits may be right on another's.
 constexpr double shadow_slack = 1.25;
@@ -65,9 +68,10 @@ class Chooser {
                              pair.shadow ? &pair.shadow->rung : nullptr, schedule);
     }
     std::string far_too_long(const Pair& pair) const;
+    const Pair* dearer_below(const Pair& pair) const;
+    double foreseen(const Pair& pair) const;
     const Pair* refused_below(const Pair& pair) const;
     std::string over_budget(const std::map<std::string, double>& costs) const;
-    void set_wrong(Pair& pair);
 
     const SurfaceWork& work_;
     const Target& target_;
@@ -93,9 +97,8 @@ bool no_less_than(const Pair& high, const Pair& low) {
 
 // Where two are as good, the more accurate, then the first by name.
 bool better(const Pair& a, const Pair& b) {
-    if (a.candidate.cost != b.candidate.cost) return a.candidate.cost < b.candidate.cost;
-    if (a.wrong != b.wrong) return a.wrong < b.wrong;
-    return a.candidate.text < b.candidate.text;
+    return std::tie(a.candidate.cost, a.wrong, a.candidate.text) <
+           std::tie(b.candidate.cost, b.wrong, b.candidate.text);
 }
 
 // What a shadow adds to one search it adds to another with nearly the same hits.
@@ -190,10 +193,27 @@ const Pair* Chooser::refused_below(const Pair& pair) const {
     return nullptr;
 }
 
-void Chooser::set_wrong(Pair& pair) {
-    pair.candidate.fate = Fate::Wrong;
-    const Trial own{{}, {}, pair.candidate.errors, {}};
-    pair.candidate.why = why_wrong(tolerance_, own, false);
+// What does less and costs no less than the best.
+const Pair* Chooser::dearer_below(const Pair& pair) const {
+    for (const Pair& lower : pairs_)
+        if (lower.candidate.judged && lower.candidate.fate != Fate::Refused && &lower != &pair &&
+            lower.candidate.cost >= best_->candidate.cost && no_less_than(pair, lower))
+            return &lower;
+    return nullptr;
+}
+
+// The least that it may cost, as the others' forecasts were right: those of the same techniques,
+// or where there is none of any.
+double Chooser::foreseen(const Pair& pair) const {
+    double least = 0;
+    for (const Pair& other : pairs_) {
+        if (!other.candidate.judged || other.candidate.fate == Fate::Refused) continue;
+        if (other.search->rung.technique != pair.search->rung.technique) continue;
+        if (pair.shadow && other.shadow->rung.technique != pair.shadow->rung.technique) continue;
+        const double ratio = other.candidate.cost / std::max(other.predicted, 1.0);
+        least = least == 0 ? ratio : std::min(least, ratio);
+    }
+    return pair.predicted * (least == 0 ? least_ratio_ * surprise : least * kin_surprise);
 }
 
 // What need not be written out to know that it does not fit.
@@ -266,7 +286,8 @@ Status Chooser::measure(Pair& pair) {
     candidate.costs["reads"] = trial->costs.at("reads");
     pair.wrong = wrongness(tolerance_, *trial, false);
     if (pair.wrong > 1) {
-        set_wrong(pair);
+        candidate.fate = Fate::Wrong;
+        candidate.why = why_wrong(tolerance_, *trial, false);
     } else if (const std::string over = over_budget(candidate.costs); !over.empty()) {
         candidate.fate = Fate::OverBudget;
         candidate.why = over;
@@ -319,9 +340,15 @@ Status Chooser::find_best() {
             pair.candidate.fate = Fate::Refused;
             pair.candidate.why = fmt::format("{} does less and is refused", text_of(*lower));
         } else if (best_ != nullptr && !work_.options.exhaustive &&
-                   pair.predicted * least_ratio_ * surprise > best_->candidate.cost) {
-            pair.candidate.why = fmt::format("foreseen to cost {:.0f}, against {:.0f}",
-                                             pair.predicted * least_ratio_, best_->candidate.cost);
+                   foreseen(pair) > best_->candidate.cost) {
+            pair.candidate.why = fmt::format("foreseen to cost at least {:.0f}, against {:.0f}",
+                                             foreseen(pair), best_->candidate.cost);
+        } else if (const Pair* dearer = best_ == nullptr || work_.options.exhaustive
+                                            ? nullptr
+                                            : dearer_below(pair)) {
+            pair.candidate.why =
+                fmt::format("{} does less and costs {:.0f}, against {:.0f}", text_of(*dearer),
+                            dearer->candidate.cost, best_->candidate.cost);
         } else {
             some.push_back(&pair);
         }

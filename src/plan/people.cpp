@@ -30,6 +30,12 @@ std::string line_of(const Candidate& candidate) {
                        candidate.judged ? "" : "foreseen", candidate.text, error_text(candidate));
 }
 
+// A refusal goes on to say who spends what; `intaglio explain` does so too.
+std::string in_short(const std::string& why) {
+    const std::size_t more = why.find(": the step '");
+    return more == std::string::npos ? why : why.substr(0, more);
+}
+
 bool is_beaten(const Candidate& candidate, const Candidate& by) {
     const auto of = [](const Candidate& each, const char* metric) {
         const auto found = each.errors.find(metric);
@@ -71,7 +77,7 @@ std::string losers(const Choice& choice, Fate fate, const Shown& shown) {
         text += fmt::format("    {} {:<9} {}: {}\n",
                             candidate.cost > 0 ? cost_text(candidate) : "      ",
                             candidate.judged || candidate.cost == 0 ? "" : "foreseen",
-                            candidate.text, candidate.why);
+                            candidate.text, shown.all ? candidate.why : in_short(candidate.why));
     }
     if (left > 0) text += fmt::format("    and {} more (--all)\n", left);
     return text.empty() ? text : fmt::format("  {}:\n{}", name_of(fate), text);
@@ -108,7 +114,7 @@ std::string choice_text(const Choice& choice, const Shown& shown) {
             }
             const Candidate& one = choice.candidates[*index];
             text += fmt::format("  {}: {}\n    cost {:.4g}, {}\n    {}\n", what, one.text, one.cost,
-                                error_text(one), one.why);
+                                error_text(one), in_short(one.why));
         };
         nearest("the best that fits", choice.best_that_fits);
         nearest("the cheapest that is right", choice.cheapest_right);
