@@ -11,15 +11,15 @@
 #   NAMESPACE      of the headers
 #   CACHE          of made variants, which projects and machines may share
 #   TOOL           an executable target in place of intaglio::tool, as one with techniques of one's own
-#   OUT_FILES_VAR  set to the files that are made, baked maps aside, to install or to pack them
+#   OUT_FILES_VAR  set to the shaders and the manifest, to install or to pack them
 # See docs/cmake.md.
 include_guard(GLOBAL)
 cmake_policy(VERSION 3.25)  # of what is defined here, whatever the project that includes this asks for
 
 # What CMake must know before there is a tool to ask is read here: the surfaces of a scene, and the targets of each.
 # The tool compares what follows from them with what it makes (--expect), so that this need not be a reader of all TOML.
-# Gives `out` a list of "surface|target|target".
-function(intaglio_read_scene scene out)
+# Gives `out` a list of "surface|target|target", and `special` whether a text of the scene, as a map's name, has $ or #.
+function(intaglio_read_scene scene out special)
   file(READ "${scene}" rest)
   string(REPLACE "\r" "" rest "${rest}")
   # None of ours, and what CMake would end an element of a list at.
@@ -27,12 +27,16 @@ function(intaglio_read_scene scene out)
   set(quoted "\"([^\"\\\\\n]|\\\\.)*\"|'[^'\n]*'")
   # Texts of several lines and comments go.
   set(text "")
+  set(found FALSE)
   while(rest MATCHES "^([^\"'#]*)(\"\"\"(\"?\"?[^\"\\\\]|\\\\.)*\"\"\"|'''('?'?[^'])*'''|${quoted}|#[^\n]*|.)")
     string(LENGTH "${CMAKE_MATCH_0}" length)
     string(APPEND text "${CMAKE_MATCH_1}")
     set(token "${CMAKE_MATCH_2}")
     if(NOT token MATCHES "^(#|\"\"\"|''')")
       string(APPEND text "${token}")
+      if(token MATCHES "[$#]")
+        set(found TRUE)
+      endif()
     endif()
     string(SUBSTRING "${rest}" ${length} -1 rest)
   endwhile()
@@ -65,7 +69,7 @@ function(intaglio_read_scene scene out)
     elseif(table STREQUAL "surface" AND
            line MATCHES "^[ \t]*[\"']?name[\"']?[ \t]*=[ \t]*[\"']([A-Za-z_][A-Za-z0-9_]*)[\"']")
       set(name_${count} "${CMAKE_MATCH_1}")
-    elseif(NOT table STREQUAL "other" AND line MATCHES "^[ \t]*[\"']?targets[\"']?[ \t]*=[ \t]*\\[(.*)\\]")
+    elseif(NOT table STREQUAL "other" AND line MATCHES "^[ \t]*[\"']?targets[\"']?[ \t]*=(.*)")
       string(REGEX MATCHALL "[A-Za-z0-9_]+" targets_${count} "${CMAKE_MATCH_1}")
     endif()
     set(line "")
@@ -78,6 +82,7 @@ function(intaglio_read_scene scene out)
     endif()
   endforeach()
   set(${out} "${rows}" PARENT_SCOPE)
+  set(${special} ${found} PARENT_SCOPE)
 endfunction()
 
 # The endings of what a variant is made of, by target.
@@ -100,6 +105,31 @@ function(intaglio_endings target out)
     set(endings .vert .frag)
   endif()
   set(${out} "${endings}" PARENT_SCOPE)
+endfunction()
+
+# A command of the tool that says what it read (-MD), whose success a stamp remembers.
+function(intaglio_command stamp comment special)
+  cmake_parse_arguments(PARSE_ARGV 3 arg "" "" "FILES;DEPENDS;COMMAND")
+  set(known_as "${stamp}")
+  set(depfile "${stamp}.d")
+  set(written "${depfile}")
+  if(CMAKE_GENERATOR MATCHES "Ninja" AND (special OR "${arg_DEPENDS}" MATCHES "[$#]"))
+    # CMake copies the file for Ninja (CMP0116) without the escapes of $ and #, which Ninja then reads as the ends of
+    # names.  As it was before that policy, Ninja reads ours, with names as Ninja has them.
+    cmake_policy(SET CMP0116 OLD)
+    cmake_path(IS_PREFIX CMAKE_BINARY_DIR "${stamp}" below)
+    if(below)
+      cmake_path(RELATIVE_PATH known_as BASE_DIRECTORY "${CMAKE_BINARY_DIR}")
+      cmake_path(RELATIVE_PATH depfile BASE_DIRECTORY "${CMAKE_BINARY_DIR}")
+    endif()
+    string(REPLACE "$" "$$" depfile "${depfile}")
+  endif()
+  add_custom_command(OUTPUT "${stamp}" ${arg_FILES}
+    COMMAND ${arg_COMMAND} -MD -MF "${written}" -MT "${known_as}"
+    COMMAND "${CMAKE_COMMAND}" -E touch "${stamp}"
+    DEPENDS ${arg_DEPENDS}
+    DEPFILE "${depfile}"
+    COMMENT "${comment}" VERBATIM)
 endfunction()
 
 function(intaglio_add_shaders target)
@@ -130,6 +160,10 @@ function(intaglio_add_shaders target)
   endif()
   cmake_path(ABSOLUTE_PATH arg_OUTPUT_DIR BASE_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}" NORMALIZE)
   string(REGEX REPLACE "/$" "" arg_OUTPUT_DIR "${arg_OUTPUT_DIR}")
+  if(arg_OUTPUT_DIR MATCHES "[#<>;]" OR CMAKE_CURRENT_BINARY_DIR MATCHES "[#<>;]")
+    message(FATAL_ERROR "intaglio_add_shaders(${target}): CMake has no rules for making files in folders with one of "
+      "# < > ; in their names: build elsewhere than in '${arg_OUTPUT_DIR}'")
+  endif()
   get_property(folders GLOBAL PROPERTY intaglio_output_folders)
   if(arg_OUTPUT_DIR IN_LIST folders)
     message(FATAL_ERROR "intaglio_add_shaders(${target}): another call already builds into '${arg_OUTPUT_DIR}'; "
@@ -139,7 +173,7 @@ function(intaglio_add_shaders target)
 
   # What is made: by name, before anything is.
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${arg_SCENE}")
-  intaglio_read_scene("${arg_SCENE}" surfaces)
+  intaglio_read_scene("${arg_SCENE}" surfaces special)
   if(NOT surfaces)
     message(FATAL_ERROR "intaglio_add_shaders(${target}): '${arg_SCENE}' has no [[surface]] with a name")
   endif()
@@ -166,7 +200,7 @@ function(intaglio_add_shaders target)
   list(JOIN names "\n" expected)
   file(CONFIGURE OUTPUT "${state}.expected" CONTENT "${expected}\n" @ONLY)
 
-  set(command "${arg_TOOL}" build "${arg_SCENE}" -o "${arg_OUTPUT_DIR}")
+  set(command "${arg_TOOL}" build "${arg_SCENE}" -o "${arg_OUTPUT_DIR}" --quiet)
   if(arg_TARGETS)
     list(JOIN arg_TARGETS "," targets)
     list(APPEND command --targets "${targets}")
@@ -182,22 +216,15 @@ function(intaglio_add_shaders target)
   endforeach()
   # The stamp is as young as the last build; files whose bytes did not change keep their time, so that what includes
   # them is not compiled anew.
-  add_custom_command(OUTPUT "${state}.stamp" ${files}
-    COMMAND ${command} --expect "${state}.expected" -MD -MF "${state}.d" -MT "${state}.stamp"
-    COMMAND "${CMAKE_COMMAND}" -E touch "${state}.stamp"
-    DEPENDS "${arg_SCENE}" "${state}.expected" "${arg_TOOL}"
-    DEPFILE "${state}.d"
-    COMMENT "Shaders of ${scene}" VERBATIM)
+  intaglio_command("${state}.stamp" "Shaders of ${scene}" "${special}"
+    FILES ${files} DEPENDS "${arg_SCENE}" "${state}.expected" "${arg_TOOL}"
+    COMMAND ${command} --expect "${state}.expected")
   set(made "${state}.stamp" ${files})
-
   if(arg_BUDGET)
     cmake_path(ABSOLUTE_PATH arg_BUDGET BASE_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}" NORMALIZE)
-    add_custom_command(OUTPUT "${state}.checked"
-      COMMAND "${arg_TOOL}" check "${arg_BUDGET}" -MD -MF "${state}.checked.d" -MT "${state}.checked"
-      COMMAND "${CMAKE_COMMAND}" -E touch "${state}.checked"
-      DEPENDS "${arg_BUDGET}" "${state}.stamp" "${arg_TOOL}"
-      DEPFILE "${state}.checked.d"
-      COMMENT "Budgets of ${scene}" VERBATIM)
+    intaglio_command("${state}.checked" "Budgets of ${scene}" "${special}"
+      DEPENDS "${arg_BUDGET}" "${arg_TOOL}"
+      COMMAND "${arg_TOOL}" check "${arg_BUDGET}" --quiet)
     list(APPEND made "${state}.checked")
   endif()
 
@@ -220,6 +247,7 @@ function(intaglio_add_shaders target)
     target_include_directories(${target} ${scope} "${above}")
   endif()
   if(arg_OUT_FILES_VAR)
+    list(FILTER files EXCLUDE REGEX "\\.h$")
     set(${arg_OUT_FILES_VAR} "${files}" PARENT_SCOPE)
   endif()
 endfunction()

@@ -41,6 +41,7 @@ Status load_maps(const std::vector<MapEntry>& entries, const std::string& file,
                     entry.position.line, entry.position.column);
         scene.plan.maps.push_back(std::move(*set));
         scene.map_arguments.push_back(arguments_of(entry));
+        add_inputs(entry, scene.inputs);
     }
     return Done{};
 }
@@ -56,6 +57,7 @@ Result<Measurement> read_measurement_with_sources(const std::filesystem::path& p
     reader.check_keys(*document, "the scene",
                       {"relief", "views", "lights", "run", "map", "variant"});
     Measurement scene;
+    scene.inputs.push_back(path);
     measure::Plan& plan = scene.plan;
     read_relief(reader, *document, plan);
     plan.views = read_directions(reader, *document, "views", {90, 60, 45, 30, 15}, {20});

@@ -53,6 +53,8 @@ struct Measurement {
     // For each map of the plan the command line arguments that stand for it, for instance
     // {"--height", "maps/wall.png"}: reports print them in commands that can be pasted.
     std::vector<std::vector<std::string>> map_arguments;
+    // Every file that was read, the measurement first; without those of `own_map`.
+    std::vector<std::filesystem::path> inputs;
 };
 
 // Reads a measurement and loads its maps.  With `own_map` the maps of the file are left alone, and

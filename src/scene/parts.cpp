@@ -254,6 +254,18 @@ std::vector<std::string> arguments_of(const MapEntry& entry) {
     return arguments;
 }
 
+void add_inputs(const MapEntry& map, std::vector<std::filesystem::path>& inputs) {
+    const auto add = [&](const std::filesystem::path& path) {
+        if (std::find(inputs.begin(), inputs.end(), path) == inputs.end()) inputs.push_back(path);
+    };
+    if (map.files) {
+        add(map.files->height);
+        if (map.files->normal) add(*map.files->normal);
+        if (map.files->colour) add(*map.files->colour);
+    }
+    for (const auto& [kind, path] : map.baked) add(path);
+}
+
 Result<measure::MapSet> load_map(const MapEntry& entry, double scale) {
     Result<measure::MapSet> set =
         entry.files ? measure::load_map_set(*entry.files, scale)

@@ -47,6 +47,8 @@ Result<measure::CaseMap> load_case_map(const MapEntry& entry, double scale,
                                        const std::filesystem::path& folder);
 // What `intaglio run` takes for it.
 std::vector<std::string> arguments_of(const MapEntry& entry);
+// The files of a map behind those of others, each once.
+void add_inputs(const MapEntry& map, std::vector<std::filesystem::path>& inputs);
 std::vector<std::string> arguments_of(const measure::MapFiles& files);
 
 // One table of [[variant]], as the rows it stands for, behind those that are there.

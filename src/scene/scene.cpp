@@ -223,18 +223,6 @@ Status add_view(const Common& common, const Entry& entry, const std::string& fil
     return Done{};
 }
 
-void add_inputs(const MapEntry& map, std::vector<std::filesystem::path>& inputs) {
-    const auto add = [&](const std::filesystem::path& path) {
-        if (std::find(inputs.begin(), inputs.end(), path) == inputs.end()) inputs.push_back(path);
-    };
-    if (map.files) {
-        add(map.files->height);
-        if (map.files->normal) add(*map.files->normal);
-        if (map.files->colour) add(*map.files->colour);
-    }
-    for (const auto& [kind, path] : map.baked) add(path);
-}
-
 Status complete(const Common& common, Entry& entry, Scene& scene) {
     SceneSurface& surface = entry.surface;
     const std::string file = scene.file.string();

@@ -150,6 +150,8 @@ TEST(Scene, FilesAreFoundBesideTheScene) {
     EXPECT_THAT(scene->map_arguments,
                 ElementsAre(ElementsAre("--height", folder + "/h.png", "--normal",
                                         folder + "/n.png", "--colour", folder + "/c.png")));
+    EXPECT_THAT(scene->inputs, ElementsAre(file.path(), folder + "/h.png", folder + "/n.png",
+                                           folder + "/c.png"));
 }
 
 TEST(Scene, OnesOwnMapTakesThePlaceOfAllAndTheOthersAreNotRead) {
