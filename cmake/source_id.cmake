@@ -1,4 +1,5 @@
-# Writes OUT with a hash of the files in LIST, by their places below ROOT and their contents.
+# Writes OUT with a hash of the files in LIST, by their places below ROOT and their contents: the function
+# `const char* NAMESPACE::source_id()`, which HEADER declares.
 file(READ "${LIST}" files)
 list(SORT files)
 set(all "")
@@ -10,9 +11,9 @@ endforeach()
 string(SHA256 id "${all}")
 string(SUBSTRING "${id}" 0 16 id)
 file(WRITE "${OUT}" "// Made by source_id.cmake.
-#include \"src/measure/case_text.h\"
+#include \"${HEADER}\"
 
-namespace intaglio::measure {
+namespace ${NAMESPACE} {
 const char* source_id() { return \"${id}\"; }
-}  // namespace intaglio::measure
+}  // namespace ${NAMESPACE}
 ")

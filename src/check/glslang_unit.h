@@ -1,5 +1,5 @@
 // One stage inside glslang, with the settings of its language.  Private to this folder: the only
-// header that shows glslang's types, included by frontend.cpp and link.cpp alone.
+// header that shows glslang's types, included by frontend.cpp, link.cpp and reflect_names.cpp alone.
 #pragma once
 
 #include <glslang/Public/ShaderLang.h>

@@ -70,6 +70,12 @@ struct Reflection {
 // gives up.
 Result<Reflection> reflect(const SpirvWords& words);
 
+// The same of GLSL whose uniforms have names and no places (Glsl330, Essl300, Glsl120, Essl100), by
+// glslang's own reflection of the text: what the stage reads, by name, all places -1, the loose
+// uniforms as one block without a name.  Errors: those of parse; "unknown-uniform": a type that no
+// text of ours has (matrices, cubes).
+Result<Reflection> reflect_names(const Source& source);
+
 // The member of that name in any uniform block, with its block; nullopt when there is none.
 struct FoundMember {
     const Reflection::Block* block;

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "src/cli/bake.h"
+#include "src/cli/build.h"
 #include "src/cli/commands.h"
 #include "src/cli/completion.h"
 #include "src/cli/description.h"
@@ -424,6 +425,7 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
     add_plan(app, catalogue, chosen);
     add_sweep(app, catalogue, chosen);
     add_bake(app, chosen);
+    add_build(app, catalogue, chosen);
     add_hard(app, catalogue, chosen);
     add_stability(app, catalogue, chosen);
     add_shells(app, chosen);
@@ -447,7 +449,11 @@ int run_command_line(int argument_count, const char* const* arguments,
         return report(write_product("-", complete_words(describe(app), catalogue, words), false));
     }
     try {
-        app.parse(argument_count, arguments);
+        // The parser takes them from the last to the first, without the program's name.
+        std::vector<std::string> words = with_long_names(argument_count, arguments);
+        std::reverse(words.begin() + 1, words.end());
+        words.erase(words.begin());
+        app.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
         return report_usage(app, error);
     }

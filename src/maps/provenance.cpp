@@ -67,7 +67,9 @@ BakeSettings parse_settings(const std::string& text) {
     return settings;
 }
 
-Status write_baked(const std::filesystem::path& path, const Image& map, const Provenance& from) {
+namespace {
+
+std::vector<PngText> text_of(const Image& map, const Provenance& from) {
     std::vector<PngText> text;
     // What is empty is not said: libspng writes no empty text.
     const auto say = [&](const char* name, const std::string& what) {
@@ -76,7 +78,17 @@ Status write_baked(const std::filesystem::path& path, const Image& map, const Pr
     for (const Field& field : fields) say(field.name, from.*field.text);
     say("settings", to_string(from.settings));
     say("texels", fingerprint(map));
-    return write_png(path, map, text);
+    return text;
+}
+
+}  // namespace
+
+Result<std::vector<unsigned char>> encode_baked(const Image& map, const Provenance& from) {
+    return encode_png(map, text_of(map, from));
+}
+
+Status write_baked(const std::filesystem::path& path, const Image& map, const Provenance& from) {
+    return write_png(path, map, text_of(map, from));
 }
 
 Result<BakedFile> read_baked(const std::filesystem::path& path) {

@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "generator/base/result.h"
 #include "src/maps/image.h"
@@ -38,7 +39,9 @@ struct Provenance {
     std::string format = std::to_string(bake_format);
 };
 
-// Writes the map with where it comes from; codes of write_png.
+// The map with where it comes from as the bytes of a file; codes of encode_png.
+Result<std::vector<unsigned char>> encode_baked(const Image& map, const Provenance& from);
+// Writes the same; codes of write_png.
 Status write_baked(const std::filesystem::path& path, const Image& map, const Provenance& from);
 
 struct BakedFile {

@@ -187,6 +187,12 @@ Result<maps::WantedBake> wanted_bake(const std::string& kind, const std::string&
     return input_error("unknown-bake", unknown_name_sentence("kind of baked map", kind, kinds));
 }
 
+std::optional<BakeBehind> bake_behind(std::string_view sampler) {
+    const Row* row = row_named(sampler);
+    if (row == nullptr) return std::nullopt;
+    return BakeBehind{row->kind, row->settings};
+}
+
 BakedMaps::BakedMaps(const MapSet& set, Filtering filtering)
     : heights_(set.heights), files_(set.baked), source_(set.source), filtering_(filtering) {}
 

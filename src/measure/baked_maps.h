@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -23,6 +24,15 @@ namespace intaglio::measure {
 // technique reads that kind.
 Result<maps::WantedBake> wanted_bake(const std::string& kind, const std::string& heights,
                                      const std::string& source);
+
+// What lies behind a sampler's name: the kind of `intaglio bake` and the settings that every
+// technique expects; kind "" for the heights themselves, texel by texel.  Nothing where the name is
+// none of BakedMaps::names().
+struct BakeBehind {
+    std::string kind;
+    maps::BakeSettings settings;
+};
+std::optional<BakeBehind> bake_behind(std::string_view sampler);
 
 class BakedMaps {
   public:

@@ -67,6 +67,10 @@ Result<check::Witnessed> judge_stage(const Variant& variant, const Artifact& art
 
 }  // namespace
 
+Result<d3d9::Shader> checked_stage(const Variant& variant, ir::Stage stage) {
+    return decoded(variant, stage == ir::Stage::Vertex ? variant.vertex : variant.pixel);
+}
+
 Result<d3d9::Shader> decode_stage(const Variant& variant, ir::Stage stage) {
     const Artifact& artifact = stage == ir::Stage::Vertex ? variant.vertex : variant.pixel;
     return d3d9::decode(words_of(artifact.bytecode.bytes), profile_of(*variant.target));

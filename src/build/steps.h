@@ -1,0 +1,34 @@
+// A build in pieces, for engines that spread actions over machines: each reads declared inputs and
+// writes declared outputs, and all of them together write what build_scene writes.
+//
+//     orders     the scene, its maps                  NAME.order.json, .intaglio/scene.json
+//     variant    NAME.order.json                      its files, .intaglio/NAME.bundle
+//     maps       the scene, its maps, the bundles     baked maps, .intaglio/SURFACE.maps.json
+//     header     orders, bundles, maps of a surface   SURFACE.h
+//     manifest   all of that                          manifest.json
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "generator/base/result.h"
+#include "src/build/build.h"
+
+namespace intaglio::build {
+
+// Each writes only what differs, so that nothing after it runs without need.  `output` of the
+// options is the folder of all; `scene` is read where the table above says so.
+Status build_orders(const dsl::Catalogue& catalogue, const BuildOptions& options);
+// The order is read from `order`, and all that is written lies in options.output.
+Status build_variant(const dsl::Catalogue& catalogue, const std::filesystem::path& order,
+                     const BuildOptions& options);
+Status build_maps(const dsl::Catalogue& catalogue, const BuildOptions& options);
+Status build_header(const std::string& surface, const BuildOptions& options);
+Status build_manifest(const BuildOptions& options);
+
+// The edges for Ninja.  Commands run the tool of the options, from the folder that the options'
+// paths are relative to.  Error
+// "ninja-path": Ninja has no way to say a line break in a path.
+Result<std::string> ninja_text(const scene::Scene& scene, const BuildOptions& options);
+
+}  // namespace intaglio::build
