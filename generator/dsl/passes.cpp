@@ -68,6 +68,7 @@ float4 hand_on(const Hit& hit, float2 uv, float1 last) {
 Ray section_of(const Ray& whole, const Relief& section, const std::optional<TakenOver>& before) {
     const float share = 1.0f / static_cast<float>(section.sections);
     Ray ray{whole.at(static_cast<float>(section.section) * share), whole.view, whole.reach * share};
+    ray.polygon_uv = whole.polygon_uv;
     if (before) ray.entry_height = section.in_section(before->height);
     return ray;
 }
@@ -138,12 +139,14 @@ Status record_pixel(const Surface& surface, const RecordOptions& options, const 
 
     const float2 uv = input<2>("uv");
     std::optional<TakenOver> before;
-    if (work.number > 0) before = take_over(uv);
+    const PolygonPoint from = polygon_point(surface, uv);
+    if (work.number > 0) before = take_over(from.local);
     const float3 view = unit_input("to_eye", "view");
     const Relief relief = make_relief(surface);
-    const Hit hit = work.section < 0 ? Hit{before->uv, before->height}
-                                     : search(surface, relief, make_ray(surface, relief, uv, view),
-                                              work, split, before);
+    const Hit hit =
+        work.section < 0
+            ? Hit{before->uv, before->height}
+            : search(surface, relief, make_ray(surface, relief, from, view), work, split, before);
     const std::vector<Light> lights = lights_of(surface, relief, hit, work, before);
     const float1 visibility = lights.empty() ? float1(1.0f) : lights[0].visibility;
     if (!work.output) {
@@ -152,12 +155,15 @@ Status record_pixel(const Surface& surface, const RecordOptions& options, const 
                             : last_section ? float1(1.0f)
                                            : select(*hit.found, float1(1.0f), 0.0f);
         program.pixel.outputs = {{"handed_on", ir::float4, ir::Semantic::Target}};
-        return recorder.finish({hand_on(hit, uv, last).id()});
+        return recorder.finish({hand_on(hit, from.local, last).id()});
     }
-    const float3 colour =
-        surface.output->shaded() ? shade(surface, relief, hit, uv, view, lights) : float3(0.0f);
+    const Hit met = from.continuous(hit);
+    const bool reads_locally = surface.relief->local_origin == 2;
+    const float3 colour = surface.output->shaded()
+                              ? shade(surface, relief, reads_locally ? hit : met, uv, view, lights)
+                              : float3(0.0f);
     const float4 value =
-        let(surface.output->name(), surface.output->write(hit, visibility, colour));
+        let(surface.output->name(), surface.output->write(met, visibility, colour));
     program.pixel.outputs = {{surface.output->name(), ir::float4, ir::Semantic::Target}};
     std::vector<ir::ValueId> values = {value.id()};
     if (const std::optional<float1> depth = surface.output->depth(relief, hit)) {
@@ -166,7 +172,7 @@ Status record_pixel(const Surface& surface, const RecordOptions& options, const 
     }
     if (surface.relief->clip_tile == 1) {
         program.pixel.outputs.push_back({"inside", ir::float1, ir::Semantic::Clip});
-        values.push_back(inside_tile(hit).id());
+        values.push_back(inside_tile(met).id());
     }
     return recorder.finish(values);
 }

@@ -60,12 +60,12 @@ Result<ir::Program> record_function(const Surface& surface, FunctionPart part,
     module.name = part == FunctionPart::Search ? "find" : "visibility";
     Recorder recorder(module);
     apply_schedules(surface, options, recorder);
-    const float2 uv = input<2>("uv");
+    const PolygonPoint from = polygon_point(surface, input<2>("uv"));
     if (part == FunctionPart::Search) {
         const float3 view = unit_input("view", "unit_view");
         const Relief relief = make_relief(surface);
-        const Hit hit = surface.search->find(relief, make_ray(surface, relief, uv, view));
-        const float3 result = let("result", float3(hit.uv, hit.height));
+        const Hit hit = surface.search->find(relief, make_ray(surface, relief, from, view));
+        const float3 result = let("result", float3(from.continuous(hit).uv, hit.height));
         module.outputs = {{"result", ir::float3, ir::Semantic::Result}};
         if (Status status = recorder.finish({result.id()}); !status) return status.error();
     } else {
@@ -73,7 +73,7 @@ Result<ir::Program> record_function(const Surface& surface, FunctionPart part,
         const float3 light = unit_input("light", "unit_light");
         const Relief relief = make_relief(surface);
         const float1 result =
-            let("result", surface.shadow->visibility(relief, {uv, height}, light));
+            let("result", surface.shadow->visibility(relief, {from.local, height}, light));
         module.outputs = {{"result", ir::float1, ir::Semantic::Result}};
         if (Status status = recorder.finish({result.id()}); !status) return status.error();
     }

@@ -42,6 +42,16 @@ class ReliefKnobs : public Technique {
         at_least{0},
         at_most{1},
         "1: pixels whose ray leaves the part of the map that uniform tile names are dropped"};
+    // Floats hold places near 0 finest, so that a ray that starts in the map's first tile meets the
+    // same relief in every one.  Between tiles such a coordinate jumps, and with it the level that
+    // hardware without gradients would choose: there colours want 1, or maps of one level.
+    Knob<int> local_origin{this,
+                           "local_origin",
+                           0,
+                           at_least{0},
+                           at_most{2},
+                           "0: rays start at the coordinate; 1: at its place in the first tile of "
+                           "the repeated maps; 2: colours and normals are read there as well"};
 };
 
 // By what a surface is lit.

@@ -20,9 +20,22 @@ Relief make_relief(const Surface& surface) {
     return relief;
 }
 
-Ray make_ray(const Surface& surface, const Relief& relief, float2 uv, float3 view) {
-    if (surface.relief->ray_per_vertex == 0) return Ray::through(relief, uv, view);
-    return {uv, view, input<2>("reach")};
+Hit PolygonPoint::continuous(const Hit& local_hit) const {
+    Hit hit = local_hit;
+    if (tile) hit.uv = let("displaced_uv", local_hit.uv + *tile);
+    return hit;
+}
+
+PolygonPoint polygon_point(const Surface& surface, float2 uv) {
+    if (surface.relief->local_origin == 0) return {uv, uv};
+    return {uv, let("local_uv", frac(uv)), let("tile", floor(uv))};
+}
+
+Ray make_ray(const Surface& surface, const Relief& relief, const PolygonPoint& from, float3 view) {
+    Ray ray = surface.relief->ray_per_vertex == 0 ? Ray::through(relief, from.local, view)
+                                                  : Ray{from.local, view, input<2>("reach")};
+    if (from.tile) ray.polygon_uv = from.uv;
+    return ray;
 }
 
 void add_settings(const Surface& surface, const Technique& technique,

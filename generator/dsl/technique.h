@@ -84,6 +84,9 @@ struct Ray {
     // The relief's height where the ray enters, where an earlier section has read it: a search may
     // spare its own read, or start its profile there.
     std::optional<float1> entry_height = {};
+    // The polygon's own coordinate, whose derivatives are the pixel's, where uv starts in the first
+    // tile and so jumps between tiles; empty: uv.
+    std::optional<float2> polygon_uv = {};
 
     // Below this V.z the ray is as flat as it gets: 89.94 degrees.  Keeps V.xy / V.z finite.
     static constexpr float least_z = 1.0f / 1024.0f;

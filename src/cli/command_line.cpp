@@ -137,6 +137,9 @@ void add_report(CLI::App& app, const dsl::Catalogue& catalogue, std::function<St
         ->add_option("--maps", options->maps,
                      "Folder that map files in the results are relative to: the sweep file's")
         ->capture_default_str();
+    command->add_option("--budgets", options->budgets,
+                        "A budget file: bars show the room below its limits, where it has some, in "
+                        "place of the profiles'");
     command->add_option("--chip", options->chips,
                         "Also what this chip's compiler makes of each variant: polaris10, navi21 "
                         "(repeatable; Mesa's RADV, without the chip)");

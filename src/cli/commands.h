@@ -217,6 +217,7 @@ struct ReportOptions {
     std::string output;      // a page; empty: none
     std::string markdown;    // a document whose made part is written anew; empty: none
     std::string maps = ".";  // folder that the map files of the data are relative to
+    std::string budgets;     // a budget file whose limits stand in for the profiles'; empty: none
     // Whose compilers are asked what the variants cost.
     std::vector<std::string> chips;
     bool pictures = true;    // drawn anew, which takes a device and the maps

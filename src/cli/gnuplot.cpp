@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "src/cli/commands.h"
 #include "src/report/command.h"
 
 namespace intaglio::cli {
@@ -45,6 +46,23 @@ Result<std::string> plotted(const std::string& script) {
         return input_error("no-gnuplot",
                            "gnuplot did not draw the plots; on Debian it is in gnuplot-nox");
     return plot;
+}
+
+Status write_plots(const std::vector<report::Plot>& plots, const fs::path& folder) {
+    std::vector<std::string> drawn;
+    for (const report::Plot& plot : plots) {
+        Result<std::string> svg = plotted(plot.script);
+        if (!svg) return svg.error();
+        drawn.push_back(std::move(*svg));
+    }
+    std::error_code failure;
+    fs::create_directories(folder, failure);
+    for (std::size_t i = 0; i < plots.size(); ++i)
+        if (Status status =
+                write_product((folder / (plots[i].name + ".svg")).string(), drawn[i], false);
+            !status)
+            return status;
+    return Done{};
 }
 
 }  // namespace intaglio::cli

@@ -2,9 +2,11 @@
 #include "src/cli/hard.h"
 
 #include <fmt/format.h>
+#include <filesystem>
 #include <functional>
 
 #include "src/cli/commands.h"
+#include "src/cli/gnuplot.h"
 #include "src/cli/progress.h"
 #include "src/measure/hard.h"
 #include "src/report/hard_table.h"
@@ -47,11 +49,20 @@ struct StabilityOptions {
 Status stability(const dsl::Catalogue& catalogue, const StabilityOptions& options) {
     const Result<vulkan::Device> device = vulkan::Device::create({options.device, false});
     if (!device) return device.error();
-    const Result<std::vector<measure::GuardRow>> guards =
-        measure::measure_guards(*device, catalogue);
-    if (!guards) return guards.error();
-    return write_product(options.output,
-                         report::stability_page(measure::stability_curves(), *guards), false);
+    std::vector<measure::GuardRow> guards = measure::guard_rows();
+    if (Status status = measure::measure_guards(*device, catalogue, guards); !status) return status;
+    const Result<std::vector<measure::FarRow>> far = measure::far_rows(catalogue);
+    if (!far) return far.error();
+    const Result<std::vector<measure::FarCost>> costs = measure::far_costs(catalogue);
+    if (!costs) return costs.error();
+    const std::filesystem::path file = options.output == "-" ? "stability.md" : options.output;
+    const std::filesystem::path pictures = "images" / file.stem();
+    const report::StabilityPage page = report::stability_page(measure::stability_curves(), *far,
+                                                              *costs, guards, pictures.string());
+    if (options.output != "-")
+        if (Status status = write_plots(page.plots, file.parent_path() / pictures); !status)
+            return status;
+    return write_product(options.output, page.text, false);
 }
 
 }  // namespace
@@ -60,7 +71,9 @@ void add_stability(CLI::App& app, const dsl::Catalogue& catalogue,
                    std::function<Status()>& chosen) {
     auto options = std::make_shared<StabilityOptions>();
     CLI::App* command = app.add_subcommand(
-        "stability", "Published formulas beside the stable ones, and what each guard costs");
+        "stability",
+        "Published formulas beside the stable ones, and what each guard costs, as a page; "
+        "beside a file its plots, images/NAME/*.svg");
     command->add_option("--device", options->device,
                         "Part of a Vulkan device's name; lavapipe if not given");
     command->add_option("-o,--output", options->output, "File; - is stdout")->capture_default_str();

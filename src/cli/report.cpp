@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
+#include "src/budget/budgets.h"
 #include "src/cli/commands.h"
 #include "src/cli/gnuplot.h"
 #include "src/maps/files.h"
+#include "src/measure/named_metric.h"
 #include "src/report/command.h"
 #include "src/report/front.h"
 #include "src/report/gallery.h"
@@ -77,9 +79,28 @@ Result<std::string> live_part(const report::PageData& page,
     return report::live_section(catalogue, options);
 }
 
+// What a budget file says of the page's variants.
+Status add_budgets(report::PageData& page, const std::string& file) {
+    const Result<budget::Budgets> budgets = budget::read_budgets(file);
+    if (!budgets) return budgets.error();
+    std::vector<report::PageLimit> limits;
+    for (std::size_t i = 0; i < page.variants.size(); ++i) {
+        const VariantRequest& variant = page.variants[i];
+        for (const measure::Metric& metric : measure::metrics()) {
+            const std::optional<budget::Bound> bound = budgets->bound(
+                variant.surface, variant.target, report::settings_of(variant), metric.name);
+            if (bound && bound->max) limits.push_back({i, std::string(metric.name), *bound->max});
+        }
+    }
+    report::add_limits(page, limits, file);
+    return Done{};
+}
+
 Status write_page(report::PageData& page, const dsl::Catalogue& catalogue,
                   const ReportOptions& options) {
     if (Status status = report::add_sources(page, catalogue); !status) return status;
+    if (!options.budgets.empty())
+        if (Status status = add_budgets(page, options.budgets); !status) return status;
     if (!options.chips.empty())
         if (Status status = report::add_chips(page, catalogue, options.chips); !status)
             return status;
@@ -98,6 +119,7 @@ Status write_page(report::PageData& page, const dsl::Catalogue& catalogue,
     }
     std::string command = fmt::format("intaglio report {}", report::shell_quoted(options.folder));
     if (options.maps != ".") command += " --maps " + report::shell_quoted(options.maps);
+    if (!options.budgets.empty()) command += " --budgets " + report::shell_quoted(options.budgets);
     for (const std::string& chip : options.chips)
         command += " --chip " + report::shell_quoted(chip);
     page.json["commands"] = {command + " -o " + report::shell_quoted(options.output)};
@@ -117,16 +139,7 @@ Status write_document(const report::PageData& page, const std::string& file) {
         error.file = file;
         return error;
     }
-    std::error_code failure;
-    std::filesystem::create_directories(folder / pictures, failure);
-    for (const report::FrontPlot& plot : made.plots) {
-        const Result<std::string> svg = plotted(plot.script);
-        if (!svg) return svg.error();
-        if (Status status =
-                write_product((folder / pictures / (plot.name + ".svg")).string(), *svg, false);
-            !status)
-            return status;
-    }
+    if (Status status = write_plots(made.plots, folder / pictures); !status) return status;
     return write_product(file, *text, false);
 }
 

@@ -207,8 +207,7 @@ std::string_view name_of(Guard guard) {
 
 int remove_guard(ir::Module& module, Guard guard) { return Remover(module, guard).count(); }
 
-Result<std::vector<GuardRow>> measure_guards(const vulkan::Device& device,
-                                             const dsl::Catalogue& catalogue) {
+std::vector<GuardRow> guard_rows() {
     std::vector<GuardRow> rows;
     const auto add = [&](Guard guard, const std::string& name, const std::string& surface) {
         rows.push_back({guard, technique(name), surface});
@@ -226,10 +225,14 @@ Result<std::vector<GuardRow>> measure_guards(const vulkan::Device& device,
     add(Guard::UnitInterval, "relief_secant", "relief_secant");
     add(Guard::DarkLight, "shadow occlusion_profile", "search=none,shadow=occlusion_profile");
     add(Guard::DarkLight, "shadow horizon", "search=none,shadow=horizon");
-    for (GuardRow& row : rows)
-        if (Status status = add_costs(catalogue, row); !status) return status.error();
-    if (Status status = add_harm(device, catalogue, rows); !status) return status.error();
     return rows;
+}
+
+Status measure_guards(const vulkan::Device& device, const dsl::Catalogue& catalogue,
+                      std::vector<GuardRow>& rows) {
+    for (GuardRow& row : rows)
+        if (Status status = add_costs(catalogue, row); !status) return status;
+    return add_harm(device, catalogue, rows);
 }
 
 }  // namespace intaglio::measure

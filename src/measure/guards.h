@@ -51,9 +51,10 @@ struct GuardRow {
     std::vector<std::string> invalid = {}, astray = {}, worse = {};
 };
 
-// Every guard in the techniques that show what it is for.  Targets: ps_2_0, ps_2_b, ps_3_0,
-// glsl_450.
-Result<std::vector<GuardRow>> measure_guards(const vulkan::Device& device,
-                                             const dsl::Catalogue& catalogue);
+// Every guard in the techniques that show what it is for, nothing measured yet.
+std::vector<GuardRow> guard_rows();
+// Costs, on ps_2_0, ps_2_b, ps_3_0 and glsl_450, and harm.
+Status measure_guards(const vulkan::Device& device, const dsl::Catalogue& catalogue,
+                      std::vector<GuardRow>& rows);
 
 }  // namespace intaglio::measure

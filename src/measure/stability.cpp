@@ -294,8 +294,8 @@ StabilityCurve far_places() {
         "The whole part takes its bits from the place in the tile.  Moved first, which is "
         "exact, places along the ray keep the precision of the first tile at any distance; "
         "what the coordinate itself has lost before, no form brings back.  exact, "
-        "steep_parallax with stride 3 and the exact shadow start so; the other searches read "
-        "uv - reach * t, and want coordinates near the origin from whoever draws.",
+        "steep_parallax with stride 3 and the exact shadow start so, the other searches with "
+        "local_origin = 1.",
         compare({[](float1 reach, float1 u, float1 t, float1) { return frac(u - reach * t); },
                  [](float1 reach, float1 u, float1 t, float1) { return frac(frac(u) - reach * t); },
                  [](const Inputs& v) {

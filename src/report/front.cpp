@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -37,13 +38,6 @@ std::string digits(double value) {
     if (value == 0) return "0";
     if (value < least_seen) return "<0.001";
     return value >= 100 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
-}
-
-// A file name and a heading's anchor alike.
-std::string file_name(std::string name) {
-    for (char& c : name)
-        if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'))) c = '_';
-    return name;
 }
 
 std::string maps_in(const PageData& page, const std::string& map_class) {
@@ -82,6 +76,49 @@ std::string cheapest_table(const PageData& page, double texels, double missed) {
     return head + line + "\n" + rows + "\n";
 }
 
+// The worst p95 of a variant from an elevation, over all maps; empty where nobody measured it.
+std::optional<double> worst_p95(const PageData& page, std::size_t variant, double elevation,
+                                const std::string& arithmetic) {
+    std::optional<double> worst;
+    for (const Json& item : page.json.at("cases")) {
+        const Json& p95 = item.at("hits").at("p95");
+        if (item.at("variant") != variant || item.at("view").at("elevation") != elevation ||
+            item.value("arithmetic", "fp32") != arithmetic || p95.is_null())
+            continue;
+        worst = std::max(worst.value_or(0), p95.get<double>());
+    }
+    return worst;
+}
+
+// Variants that were measured in less than fp32; empty where none was.
+std::string arithmetic_table(const PageData& page) {
+    std::set<std::size_t> narrow;
+    for (const Json& item : page.json.at("cases"))
+        if (item.value("arithmetic", "fp32") != "fp32") narrow.insert(item.at("variant"));
+    if (narrow.empty()) return {};
+    std::string text =
+        "### Arithmetic\n\nThe same bytecode interpreted in fp32, in the 24 bits of R300 and in 16 "
+        "(every instruction _pp): p95 in texels, the worst of all maps.\n\n| variant |";
+    std::string line = "\n|---|", rows;
+    for (double elevation : elevations(page)) {
+        text += fmt::format(" {:g}° |", elevation);
+        line += "---|";
+    }
+    for (std::size_t variant : narrow) {
+        rows += fmt::format("| {}, {} |", short_name(page, variant), page.variants[variant].target);
+        for (double elevation : elevations(page)) {
+            std::vector<std::string> cells;
+            for (const char* arithmetic : {"fp32", "fp24", "fp16"}) {
+                const auto p95 = worst_p95(page, variant, elevation, arithmetic);
+                cells.push_back(p95 ? digits(*p95) : "–");
+            }
+            rows += fmt::format(" {} |", fmt::join(cells, ", "));
+        }
+        rows += "\n";
+    }
+    return text + line + "\n" + rows + "\n";
+}
+
 std::string front_table(const PageData& page, const std::string& map_class) {
     std::string text =
         "| elevation | on the front | reads | p95, texels | missed | SPIR-V arithmetic |\n"
@@ -89,11 +126,7 @@ std::string front_table(const PageData& page, const std::string& map_class) {
     for (double elevation : elevations(page))
         for (const FrontPoint& point : front_points(page, map_class, elevation)) {
             if (!point.on_front) continue;
-            const Json& spirv = page.json.at("variants")[point.variant].at("spirv");
-            text +=
-                fmt::format("| {:g}° | {} | {} | {} | {} % | {} |\n", elevation,
-                            short_name(page, point.variant), digits(point.reads), digits(point.p95),
-                            digits(point.missed), spirv.is_null() ? "" : spirv.at("alu").dump());
+            text += front_row(page, elevation, point);
         }
     return text + "\n";
 }
@@ -135,6 +168,12 @@ std::string plot_script(const PageData& page, const std::string& map_class) {
 }
 
 }  // namespace
+
+std::string file_name(std::string name) {
+    for (char& c : name)
+        if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'))) c = '_';
+    return name;
+}
 
 std::vector<std::string> map_classes(const PageData& page) {
     std::vector<std::string> classes;
@@ -188,9 +227,23 @@ std::vector<FrontPoint> front_points(const PageData& page, const std::string& ma
     return points;
 }
 
+std::string front_row(const PageData& page, double elevation, const FrontPoint& point) {
+    const Json& spirv = page.json.at("variants")[point.variant].at("spirv");
+    return fmt::format("| {:g}° | {} | {} | {} | {} % | {} |\n", elevation,
+                       short_name(page, point.variant), digits(point.reads), digits(point.p95),
+                       digits(point.missed), spirv.is_null() ? "" : spirv.at("alu").dump());
+}
+
+std::string extent(std::size_t variants, std::size_t maps, std::size_t elevations) {
+    return fmt::format("{} variants on {} maps, from {} elevations.\n", variants, maps, elevations);
+}
+
 FrontDocument front_document(const PageData& page, const std::string& pictures) {
     FrontDocument document;
+    document.text =
+        extent(page.variants.size(), page.json.at("maps").size(), elevations(page).size()) + "\n";
     for (double limit : {1.0, 0.1}) document.text += cheapest_table(page, limit, limit);
+    document.text += arithmetic_table(page);
     for (const std::string& map_class : map_classes(page)) {
         document.plots.push_back({file_name(map_class), plot_script(page, map_class)});
         document.text += fmt::format("### {}\n\n", map_class);

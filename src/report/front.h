@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "src/report/page_data.h"
+#include "src/report/plot.h"
 
 namespace intaglio::report {
 
@@ -30,17 +31,18 @@ std::vector<FrontPoint> front_points(const PageData& page, const std::string& ma
 std::vector<std::string> map_classes(const PageData& page);
 std::vector<double> elevations(const PageData& page);
 
-struct FrontPlot {
-    std::string name;    // of the class, as a file name
-    std::string script;  // for gnuplot; writes SVG to its standard output
-};
 struct FrontDocument {
-    std::string text;  // Markdown
-    std::vector<FrontPlot> plots;
+    std::string text;         // Markdown
+    std::vector<Plot> plots;  // named after the classes
 };
-// Summary tables (which variant is the cheapest within an error), then for every class its plot,
+// How much was measured, summary tables (which variant is the cheapest within an error), what
+// narrow arithmetics do to those that were measured in them, then for every class its plot,
 // found under `pictures` with the plot's name and ".svg", and the points of its fronts.
 FrontDocument front_document(const PageData& page, const std::string& pictures);
+
+// Single lines of it, so that a test can compare some.
+std::string front_row(const PageData& page, double elevation, const FrontPoint& point);
+std::string extent(std::size_t variants, std::size_t maps, std::size_t elevations);
 
 // `text` with what is between the two marks replaced.  Error "no-marks" without both.
 inline constexpr const char* front_begin = "<!-- made by intaglio report: begin -->";

@@ -55,6 +55,16 @@ Result<PageData> page_data_of_sweep(const std::string& text, const std::string& 
 // older than the program.
 Status add_sources(PageData& page, const dsl::Catalogue& catalogue);
 
+// A limit that a project sets itself, on a metric of named_metric.h.
+struct PageLimit {
+    std::size_t variant = 0;  // of the page
+    std::string metric;
+    double max = 0;
+};
+// Puts them, and who says so, in the place of the profile's in variants[i].resources, or beside
+// them: {resource, used (null where the data does not say), limit, by}.  After add_sources.
+void add_limits(PageData& page, const std::vector<PageLimit>& limits, const std::string& file);
+
 // What the compilers of these chips make of each pixel stage (src/measure/cost.h):
 // variants[i].chips = {chip: {instructions, vector_registers, latency, inverse_throughput}}, and
 // their makers.  Where there is no such driver made_by says so.  Errors: those of make_variant and

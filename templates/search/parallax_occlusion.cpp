@@ -89,8 +89,9 @@ class ParallaxOcclusion : public Search {
 
     // 1 up to one level below fade_level, 0 from there on: the level that a colour read would take.
     float1 fade(const Relief& relief, const Ray& ray) const {
-        const float2 dx = let("texels_dx", ddx(ray.uv) * relief.map_size);
-        const float2 dy = let("texels_dy", ddy(ray.uv) * relief.map_size);
+        const float2 uv = ray.polygon_uv.value_or(ray.uv);
+        const float2 dx = let("texels_dx", ddx(uv) * relief.map_size);
+        const float2 dy = let("texels_dy", ddy(uv) * relief.map_size);
         const float1 level =
             let("mip_level", 0.5f * log2(max(max(dot(dx, dx), dot(dy, dy)), tiny)));
         return let("fade", saturate(fade_level.value() - level));

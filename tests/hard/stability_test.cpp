@@ -26,8 +26,38 @@ std::string committed() {
 }
 
 TEST(Stability, TheCommittedCurvesAreToday) {
-    EXPECT_THAT(committed(), testing::HasSubstr(report::stability_section(stability_curves())))
+    EXPECT_THAT(committed(), testing::HasSubstr(
+                                 report::stability_section(stability_curves(), "images/stability")))
         << "write it again: intaglio stability -o docs/stability.md";
+}
+
+// The guards of the two surfaces that are made quickest: a slot more or a case that breaks is seen.
+TEST(Stability, TheCommittedGuardsAreToday) {
+    std::vector<GuardRow> rows = guard_rows();
+    std::erase_if(rows, [](const GuardRow& row) {
+        return row.surface != "parallax" && row.surface != "search=none";
+    });
+    ASSERT_EQ(rows.size(), 2U);
+    exec::must(measure_guards(exec::device(), templates::all_techniques(), rows));
+    for (const GuardRow& row : rows)
+        EXPECT_THAT(committed(), testing::HasSubstr(report::guard_line(row)))
+            << "write it again: intaglio stability -o docs/stability.md";
+}
+
+TEST(Stability, TheCommittedFarPlacesAreToday) {
+    const dsl::Catalogue catalogue = templates::all_techniques();
+    EXPECT_THAT(committed(),
+                testing::HasSubstr(report::far_section(exec::must(far_rows(catalogue)),
+                                                       exec::must(far_costs(catalogue)))))
+        << "write it again: intaglio stability -o docs/stability.md";
+}
+
+TEST(Stability, EveryCurveHasItsPlot) {
+    for (const StabilityCurve& curve : stability_curves()) {
+        const std::string file =
+            INTAGLIO_ROOT "/docs/images/stability/" + report::stability_plot(curve).name + ".svg";
+        EXPECT_TRUE(std::ifstream(file).good()) << file;
+    }
 }
 
 // Finite wherever the format holds the numbers.

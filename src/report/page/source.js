@@ -4,8 +4,10 @@
 function headroomBars(resources) {
   const grid = element('div', {class: 'headroom'});
   for (const {name, used, limit, title} of resources) {
-    const share = used / limit,
-      left = limit - used;
+    const known = used !== null,
+      share = limit > 0 ? used / limit : used > 0 ? 2 : 0,
+      left = limit - used,
+      digits = value => String(Number(value.toPrecision(3)));
     grid.append(
       element(
         'div',
@@ -13,13 +15,15 @@ function headroomBars(resources) {
         element('span', {title}, name),
         element(
           'span',
-          {class: share > 1 ? 'track over' : 'track', role: 'img', 'aria-label': `${used} of ${limit}`},
+          {class: share > 1 ? 'track over' : 'track', role: 'img', 'aria-label': `${known ? used : 'unknown'} of ${limit}`},
           element('span', {class: 'fill', style: `width: ${Math.min(100, 100 * share)}%`}),
         ),
         element(
           'span',
           {class: 'value'},
-          `${used} of ${limit}: ` + (left < 0 ? `${-left} over` : `${left} left`),
+          known
+            ? `${digits(used)} of ${limit}: ` + (left < 0 ? `${digits(-left)} over` : `${digits(left)} left`)
+            : `not known, at most ${limit}`,
         ),
       ),
     );
@@ -63,7 +67,8 @@ function makeBudget() {
     );
     return;
   }
-  const tightest = variant => [...variant.resources].sort((a, b) => b.used / b.limit - a.used / a.limit)[0];
+  const share = row => (row.limit > 0 ? row.used / row.limit : row.used > 0 ? 2 : 0);
+  const tightest = variant => [...variant.resources].sort((a, b) => share(b) - share(a))[0];
   section.append(
     element('h3', {}, 'What each variant is nearest to running out of'),
     headroomBars(
@@ -103,7 +108,8 @@ function makeBudget() {
           {name: 'Resource', of: row => row.resource},
           {name: 'Used', number: true, of: row => row.used},
           {name: 'Limit', number: true, of: row => row.limit},
-          {name: 'Left', number: true, of: row => row.limit - row.used},
+          {name: 'Left', number: true, of: row => (row.used === null ? null : row.limit - row.used)},
+          {name: 'Who says so', of: row => row.by ?? 'the profile'},
           {name: 'Command', command: true, of: row => row.variant.explain_command},
         ],
         rows,

@@ -48,6 +48,43 @@ TEST(PageData, OfAMeasurementHasItsNumbers) {
     EXPECT_EQ(page->maps[1].arguments, arguments[1]);
 }
 
+// A project's limit stands where the profile's was; what only the project limits stands beside;
+// what was not measured is not known.
+TEST(PageData, TakesLimitsOfABudget) {
+    const Sample sample = direct3d9_sample();
+    Result<PageData> page =
+        page_data_of_measurement(to_json(sample.plan, sample.measurement, arguments), "r.json");
+    ASSERT_TRUE(page) << to_string(page.error());
+    Json& variants = page->json["variants"];
+    variants[1]["resources"] = {{{"resource", "arithmetic slots"}, {"used", 41}, {"limit", 64}},
+                                {{"resource", "texture slots"}, {"used", 9}, {"limit", 32}}};
+    add_limits(*page,
+               {{1, "arithmetic", 40},
+                {1, "dependent_level", 3},
+                {1, "p95", 2.5},
+                {1, "p95_fp16", 5},
+                {0, "spirv_alu", 90}},
+               "budgets.toml");
+    double worst = 0;
+    for (const measure::CaseResult& result : sample.measurement.cases)
+        if (result.row == 1) worst = std::max(worst, result.hits.p95);
+    const Json expected = {
+        {{"resource", "arithmetic slots"}, {"used", 41}, {"limit", 40.0}, {"by", "budgets.toml"}},
+        {{"resource", "texture slots"}, {"used", 9}, {"limit", 32}},
+        {{"resource", "dependent texture reads"},
+         {"used", 2},
+         {"limit", 3.0},
+         {"by", "budgets.toml"}},
+        {{"resource", "p95, texels"}, {"used", worst}, {"limit", 2.5}, {"by", "budgets.toml"}},
+        {{"resource", "p95_fp16, texels"},
+         {"used", nullptr},
+         {"limit", 5.0},
+         {"by", "budgets.toml"}}};
+    EXPECT_EQ(variants[1]["resources"], expected);
+    EXPECT_EQ(variants[0]["resources"][0]["used"], 100);
+    EXPECT_FALSE(variants[2].contains("resources"));
+}
+
 TEST(PageData, SaysWhatIsWrongWithAFile) {
     const auto code_of = [](const std::string& text) {
         const Result<PageData> page = page_data_of_measurement(text, "results.json");
