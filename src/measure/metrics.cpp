@@ -76,6 +76,7 @@ ErrorSplit split_error(const SplitHits& hits, const ExactPicture& exact, int map
                      filter = place(hits.filter) - place(hits.technique),
                      arithmetic = place(hits.arithmetic) - place(hits.technique),
                      total = place(hits.total) - right;
+        const Texels interaction = total - technique - filter - arithmetic;
         const double length = total.length();
         const double lengths = length + technique.length() + filter.length() + arithmetic.length();
         if (!std::isfinite(lengths)) {
@@ -90,10 +91,11 @@ ErrorSplit split_error(const SplitHits& hits, const ExactPicture& exact, int map
         if (length == 0) continue;
         split.total += length;
         split.technique += technique.dot(total) / length;
-        split.filter += filter.dot(total) / length;
-        split.arithmetic += arithmetic.dot(total) / length;
+        const double together = interaction.dot(total) / length;
+        split.filter += filter.dot(total) / length + together / 2;
+        split.arithmetic += arithmetic.dot(total) / length + together / 2;
+        split.interaction += together;
     }
-    split.interaction = split.total - split.technique - split.filter - split.arithmetic;
     const double rays = static_cast<double>(std::max<std::int64_t>(1, split.rays));
     for (double* sum :
          {&split.total, &split.technique, &split.filter, &split.arithmetic, &split.interaction,

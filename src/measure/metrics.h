@@ -38,15 +38,19 @@ struct SplitHits {
 };
 
 // A hit's error as a vector in texels is that of the technique (technique - exact), of the filter
-// (filter - technique), of the arithmetic (arithmetic - technique), and what these together do
-// beyond their sum.  Each mean is of the part's length along the whole error, so that
-//     total = technique + filter + arithmetic + interaction,
-// and a part that works against the others is negative.
+// and of the arithmetic.  What one of the last two does depends on whether the other is there: each
+// counts with the mean of both orders (its Shapley value),
+//     filter     = ((filter - technique) + (total - arithmetic)) / 2
+//     arithmetic = ((arithmetic - technique) + (total - filter)) / 2.
+// Each mean is of the part's length along the whole error, so that
+//     total = technique + filter + arithmetic,
+// and a part that works against the others is negative.  `interaction` is what filter and
+// arithmetic do together beyond what they do alone: half of it is in each.
 struct ErrorSplit {
     std::int64_t rays = 0;     // that count: no NaN and no Inf in any of the four
     std::int64_t invalid = 0;  // the others
     double total = 0, technique = 0, filter = 0, arithmetic = 0, interaction = 0;  // texels
-    // Mean lengths of the parts by themselves, whatever the others do.
+    // Mean lengths of the parts by themselves, where neither of the others is.
     double technique_alone = 0, filter_alone = 0, arithmetic_alone = 0;
 };
 ErrorSplit split_error(const SplitHits& hits, const ExactPicture& exact, int map_width,

@@ -94,7 +94,8 @@ std::optional<double> worst_p95(const PageData& page, std::size_t variant, doubl
 std::string arithmetic_table(const PageData& page) {
     std::set<std::size_t> narrow;
     for (const Json& item : page.json.at("cases"))
-        if (item.value("arithmetic", "fp32") != "fp32") narrow.insert(item.at("variant"));
+        if (item.value("arithmetic", "fp32") != "fp32")
+            narrow.insert(item.at("variant").get<std::size_t>());
     if (narrow.empty()) return {};
     std::string text =
         "### Arithmetic\n\nThe same bytecode interpreted in fp32, in the 24 bits of R300 and in 16 "

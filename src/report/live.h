@@ -27,14 +27,18 @@ struct LiveOptions {
     double scale = 0.08;        // depth of the relief in texture units, where the page begins
     // Shadows to choose from.  Beside one that is not "none" the exact picture has the exact one.
     std::vector<std::string> shadows = {"none", "march", "soft"};
-    // Samplers whose baked maps are too large for a page; the searches that read one cannot be
-    // chosen in it, and it says so.  One view_dependent_map of 128 x 128 is 2 MB.
-    std::vector<std::string> left_out = {"view_dependent_map"};
+    // Samplers whose baked maps are not to be in the page; the searches that read one cannot be
+    // chosen in it, and it says so.
+    std::vector<std::string> left_out = {};
     measure::Look look = {};
 };
 
+// A whole view_dependent_map, 128 x 128 texels, is 2 MB of a page; one of this side is at most 350
+// KB in base64.
+inline constexpr int live_view_side = 32;
+
 // The map as the page has it: at most `side` texels wide and high, 8 bits, colours still
-// display-ready.
+// display-ready, with a view_dependent_map of live_view_side.
 measure::MapSet live_map(const measure::MapSet& set, int side);
 
 // A variant of the page, by the names that its controls have.  The knob is the first whole one that

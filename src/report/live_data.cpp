@@ -131,6 +131,13 @@ Result<Json> map_json(const LiveMap& map, const LiveOptions& options, const Samp
                 {"textures", std::move(textures)}};
 }
 
+// What the page has otherwise than `intaglio run`.
+std::string note_of(const std::string& search) {
+    if (search != "view_dependent") return {};
+    return fmt::format("; here the volume has {0} x {0} texels, elsewhere 128 x 128",
+                       live_view_side);
+}
+
 // Name, summary and knob of each search; `absent` where it has no variant.
 Json techniques_json(const dsl::Catalogue& catalogue, const std::vector<LiveVariant>& variants) {
     Json techniques = Json::array();
@@ -154,7 +161,7 @@ Json techniques_json(const dsl::Catalogue& catalogue, const std::vector<LiveVari
                 initial = candidate->initial();
             }
         techniques.push_back({{"name", entry.name},
-                              {"summary", entry.summary},
+                              {"summary", entry.summary + note_of(entry.name)},
                               {"knob", knob},
                               {"comment", comment},
                               {"initial", knob.empty() ? "" : fmt::format("{:g}", initial)},

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "src/maps/bake.h"
+#include "src/maps/bake_view_dependent.h"
+#include "src/measure/baked_maps.h"
 #include "src/report/live.h"
 
 namespace intaglio::report {
@@ -101,11 +103,23 @@ maps::Image reduced(const maps::Image& image, int side) {
     return in_8_bits(image);
 }
 
+// In the place of the one that would be baked; where it cannot be, whoever bakes the other says so.
+void add_small_views(measure::MapSet& set) {
+    constexpr const char* kind = "view-dependent";
+    Result<maps::Volume> volume =
+        maps::bake_view_dependent(set.heights, live_view_side, live_view_side);
+    const Result<maps::WantedBake> wanted = measure::wanted_bake(kind, "", "");
+    if (!volume || !wanted) return;
+    set.baked[kind] = {{}, std::move(volume->slices), maps::Provenance{kind, wanted->settings}};
+}
+
 }  // namespace
 
 measure::MapSet live_map(const measure::MapSet& set, int side) {
-    return {set.name, reduced(set.heights, side), reduced(set.normal_height, side),
-            reduced(set.colour, side)};
+    measure::MapSet map = {set.name, reduced(set.heights, side), reduced(set.normal_height, side),
+                           reduced(set.colour, side)};
+    add_small_views(map);
+    return map;
 }
 
 Result<std::vector<LiveVariant>> live_variants(const dsl::Catalogue& catalogue,

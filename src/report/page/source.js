@@ -267,7 +267,6 @@ const sourcesOfError = [
   ['technique', 'blue', 'technique'],
   ['filter', 'orange', '8-bit filter weights'],
   ['arithmetic', 'purple', 'arithmetic'],
-  ['interaction', 'black', 'interaction of these'],
 ];
 
 function makeSplit(view) {

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "src/measure/baked_maps.h"
 #include "src/report/base64.h"
 #include "src/report/live_data.h"
 #include "templates/all_techniques.h"
@@ -70,7 +71,7 @@ TEST(Live, StepsAreAroundTheDefaultAndTheReferenceHasMany) {
     for (const LiveVariant& variant : *variants) steps[variant.search].push_back(variant.steps);
     EXPECT_THAT(steps["parallax_occlusion"], ::testing::ElementsAre("4", "8", "16", "32"));
     EXPECT_THAT(steps["none"], ::testing::ElementsAre(""));
-    EXPECT_EQ(steps.count("view_dependent"), 0u) << "its map is left out";
+    EXPECT_THAT(steps["view_dependent"], ::testing::ElementsAre(""));
     EXPECT_EQ(variants->back().search, "reference");
     EXPECT_THAT(variants->back().request.knobs,
                 ::testing::ElementsAre(::testing::Pair("max_cells", "1920")));
@@ -89,6 +90,26 @@ TEST(Live, LargeMapsAreHalvedAndRoundedToBytes) {
     for (const float height : options.maps[0].set.heights.texels)
         whole += static_cast<double>(height) / 4096;
     EXPECT_NEAR(mean, whole, 1.0 / 255) << "levels keep the mean";
+}
+
+TEST(Live, WhatIsLeftOutCannotBeChosen) {
+    LiveOptions options = options_with(16, 16);
+    options.left_out = {"view_dependent_map"};
+    const Result<std::vector<LiveVariant>> variants = live_variants(catalogue(), options);
+    ASSERT_TRUE(variants);
+    for (const LiveVariant& variant : *variants) EXPECT_NE(variant.search, "view_dependent");
+}
+
+// Whatever the map, and read as every baked map is: it says what it was made of.
+TEST(Live, TheVolumeOfViewsIsSmall) {
+    const LiveOptions options = options_with(64, 64);
+    const measure::MapSet map = live_map(options.maps[0].set, options.side);
+    measure::BakedMaps baked(map, measure::Filtering::Native);
+    const Result<const vulkan::Texture*> volume = baked.texture("view_dependent_map");
+    ASSERT_TRUE(volume) << to_string(volume.error());
+    EXPECT_EQ((*volume)->width, live_view_side);
+    EXPECT_EQ((*volume)->height, live_view_side);
+    EXPECT_LT((*volume)->levels[0].size() * 4 / 3, 400000u) << "bytes in base64";
 }
 
 TEST(Live, ThePageFetchesNothing) {
