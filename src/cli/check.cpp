@@ -6,6 +6,7 @@
 #include "src/budget/formats.h"
 #include "src/budget/planned.h"
 #include "src/budget/verdict.h"
+#include "src/build/depfile.h"
 #include "src/cli/commands.h"
 #include "src/cli/planned.h"
 #include "src/maps/files.h"
@@ -41,19 +42,36 @@ Result<std::vector<budget::Observation>> baseline_of(const std::filesystem::path
     return budget::read_lines(path);
 }
 
-// What the budgets' scene is now, whichever kind of file it is.
+// What the budgets' scene is now, whichever kind of file it is; `read` gets the files.
 Result<std::vector<budget::Observation>> observed(const dsl::Catalogue& catalogue,
-                                                  const std::filesystem::path& file) {
+                                                  const std::filesystem::path& file,
+                                                  std::vector<std::filesystem::path>& read) {
     const Result<bool> has_surfaces = scene::is_scene(file);
     if (!has_surfaces) return has_surfaces.error();
     if (*has_surfaces) {
         const Result<PlannedScene> planned = planned_scene(catalogue, file.string());
         if (!planned) return planned.error();
+        read = planned->scene.inputs;
         return budget::observe(catalogue, planned->scene, planned->plan);
     }
     const auto measurement = scene::read_measurement_with_sources(file);
     if (!measurement) return measurement.error();
+    read = measurement->inputs;
     return budget::observe(catalogue, *measurement);
+}
+
+// What a budget's verdict depends on, as a build wants to know it.
+Status write_depfile(const CheckOptions& options, const std::filesystem::path& baseline,
+                     const std::vector<std::filesystem::path>& measured) {
+    if (options.depfile.empty()) return Done{};
+    std::vector<std::string> read = {options.budgets};
+    std::error_code ignored;
+    // Make and Ninja take a file that is not there for one that changed.
+    if (std::filesystem::exists(baseline, ignored)) read.push_back(baseline.string());
+    for (const std::filesystem::path& path : measured) read.push_back(path.string());
+    const Result<std::string> text = build::depfile_text(
+        options.depfile_target.empty() ? options.budgets : options.depfile_target, read);
+    return text ? write_product(options.depfile, *text, false) : text.error();
 }
 
 }  // namespace
@@ -73,7 +91,8 @@ Status check(const dsl::Catalogue& catalogue, const CheckOptions& options) {
                            options.budgets);
     auto before = baseline_of(baseline);
     if (!before) return before.error();
-    const auto now = observed(catalogue, budgets->scene);
+    std::vector<std::filesystem::path> measured;
+    const auto now = observed(catalogue, budgets->scene, measured);
     if (!now) return now.error();
     if (options.patch) {
         const std::string text = budget::to_patch(
@@ -90,7 +109,9 @@ Status check(const dsl::Catalogue& catalogue, const CheckOptions& options) {
         budget::judge(*budgets, *now, *before, options.today.empty() ? today() : options.today);
     const auto text = formatted(verdict, options.format);
     if (!text) return text.error();
-    if (Status status = write_product(options.output, *text, false); !status) return status;
+    if (!options.quiet || !verdict.passes())
+        if (Status status = write_product(options.output, *text, false); !status) return status;
+    if (Status status = write_depfile(options, baseline, measured); !status) return status;
     if (verdict.passes()) return Done{};
     Diagnostic error = input_error(std::string(over_budget), "not within budget", options.budgets);
     if (!baseline.empty() && !options.update)

@@ -248,6 +248,15 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
         command->add_option("--format", options->format, "text, json, junit, github or sarif");
         command->add_option("--today", options->today,
                             "The day that waivers are held against, as 2026-12-31");
+        command->add_flag("-q,--quiet", options->quiet, "No report where all is within budget");
+        CLI::Option* depfile =
+            command->add_option("--depfile-name", options->depfile, "Its name (-MF)");
+        command
+            ->add_flag("--depfile", options->wants_depfile,
+                       "Also a depfile, of what was read (-MD)")
+            ->needs(depfile);
+        command->add_option("--depfile-target", options->depfile_target,
+                            "What it says depends on all that (-MT); the budgets if not given");
         command->add_option("-o,--output", options->output, "The report's file (default: stdout)");
         command->callback([&chosen, &catalogue, options] {
             chosen = [&, options] { return check(catalogue, *options); };

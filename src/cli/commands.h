@@ -88,6 +88,10 @@ struct CheckOptions {
     bool patch = false;           // ... as a patch, in place of the report
     std::string format = "text";  // text, json, junit, github, sarif
     std::string today;            // for waivers: "2026-12-31"; empty: the day in UTC
+    bool quiet = false;           // no report where all is within budget
+    bool wants_depfile = false;   // said; its name says all
+    std::string depfile;          // of what was read; empty: none
+    std::string depfile_target;   // empty: the budgets
     std::string output = "-";
 };
 // Error `over_budget` where a limit is exceeded or cannot be judged.

@@ -1,12 +1,15 @@
-# Builds examples/02_own_technique as its author would, and asks it for every target.
-set(ENV{LSAN_OPTIONS} "suppressions=${LSAN}")
-
+# Builds examples/02_own_technique as its author would, and asks it for every target; then changes the technique.
+# BINARY (a folder of this test's own), SOURCE, BUILD, COMPILER, GENERATOR, FLAGS.
 include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
+set(ENV{LSAN_OPTIONS} "suppressions=${SOURCE}/tests/lsan.supp")
+set(ENV{INTAGLIO_CACHE} "${BINARY}/cache")
+file(REMOVE_RECURSE "${BINARY}")
+file(COPY "${SOURCE}/examples/02_own_technique/" DESTINATION "${BINARY}/source")
 
-run("" ${CMAKE_COMMAND} -S ${SOURCE} -B ${BINARY} -G ${GENERATOR} -Dintaglio_DIR=${PACKAGE}
+run("" ${CMAKE_COMMAND} -S ${BINARY}/source -B ${BINARY}/build -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${BUILD}
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS=${FLAGS}")
-run("" ${CMAKE_COMMAND} --build ${BINARY})
-set(tool ${BINARY}/own_shaders)
+run("Shaders of own" ${CMAKE_COMMAND} --build ${BINARY}/build)
+set(tool ${BINARY}/build/own_shaders)
 run("bisection" ${tool} list techniques)
 run("halvings" ${tool} list knobs)
 foreach(target glsl_450 glsl_330 essl_300 hlsl_5_0 hlsl_3_0)
@@ -17,4 +20,19 @@ run("bisection.cpp" ${tool} emit bisection -T ps_2_a)
 run("slots by step" ${tool} explain bisection -T ps_2_a)
 run("msl +accepted" ${tool} validate bisection search=bisection,shadow=march)
 run("" ${tool} run bisection -T glsl_450 --maker smooth --size 64x64 -o ${BINARY}/picture.png)
+run("halvings=" ${tool} complete-words emit bisection -D h)
+
+# Another step of the technique: other shaders, without a word to CMake.
+run("no work to do" ${CMAKE_COMMAND} --build ${BINARY}/build)
+set(shader ${BINARY}/build/shaders/own/wall.glsl_450.frag)
+file(READ ${shader} before)
+file(READ ${BINARY}/source/bisection.cpp text)
+string(REPLACE "(outside + inside) * 0.5f" "(outside + inside) * 0.375f" text "${text}")
+file(WRITE ${BINARY}/source/bisection.cpp "${text}")
+run("bisection.cpp.o.*Shaders of own" ${CMAKE_COMMAND} --build ${BINARY}/build)
+file(READ ${shader} after)
+if(NOT before MATCHES "0\\.5" OR NOT after MATCHES "0\\.375")
+  message(FATAL_ERROR "the shader does not follow its technique:\n${before}\n${after}")
+endif()
+run("no work to do" ${CMAKE_COMMAND} --build ${BINARY}/build)
 message(STATUS "a technique of one's own has every target")

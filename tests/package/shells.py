@@ -1,12 +1,12 @@
 """Types into real shells, presses the tabulator, and reads what words the line has then.
 
-shells.py TOOL BASH_SCRIPT ZSH_SCRIPT: exit code 1, and what differs, where a shell completes something else.
+shells.py TOOL: exit code 1, and what differs, where a shell completes something else than it should.
 """
 import os
 import pty
 import select
-import shutil
 import signal
+import subprocess
 import sys
 import tempfile
 import time
@@ -71,7 +71,7 @@ class Shell:
 
 
 def main():
-    tool, bash_script, zsh_script = sys.argv[1:]
+    tool = sys.argv[1]
     with tempfile.TemporaryDirectory() as folder:
         for name in ("brick wall.png", "bricks.txt", "scene.toml", "scene.json"):
             write(os.path.join(folder, name), "")
@@ -79,7 +79,9 @@ def main():
         write(os.path.join(folder, "results.txt"), "")
         functions = os.path.join(folder, "functions")
         os.mkdir(functions)
-        shutil.copy(zsh_script, os.path.join(functions, "_intaglio"))
+        bash_script = os.path.join(functions, "intaglio")
+        for shell, path in (("bash", bash_script), ("zsh", os.path.join(functions, "_intaglio"))):
+            subprocess.run([tool, "completion", shell, "--program", "intaglio", "-o", path], check=True)
         programs = os.path.join(folder, "programs")
         os.mkdir(programs)
         os.symlink(tool, os.path.join(programs, "intaglio"))

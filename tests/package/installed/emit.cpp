@@ -1,4 +1,5 @@
-// The generator as a library, without the program: the pixel shader of a surface on a target, to stdout.
+// The generator as a library, without the program: the pixel shader of a surface on a target, to
+// stdout.
 #include <cstdio>
 
 #include "generator/dsl/surface.h"

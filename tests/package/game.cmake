@@ -1,0 +1,100 @@
+# Builds examples/06_game as its author would, against PACKAGE, touches and edits its files, and looks at what is built
+# again.  SOURCE, BINARY (a folder of this test's own), COMPILER, GENERATOR; TOOL: the package's, to be touched.
+include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
+file(REMOVE_RECURSE "${BINARY}")
+set(ENV{INTAGLIO_CACHE} "${BINARY}/cache")
+# What shells, Make, Ninja and CMake trip over.  CMake itself cannot make files below a folder with #.
+set(game "${BINARY}/sc@ne of \$x #1 für")
+set(build "${BINARY}/b@u of \$x für")
+file(COPY "${SOURCE}/examples/06_game/" DESTINATION "${game}")
+
+set(configure "${CMAKE_COMMAND}" -G "${GENERATOR}" "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_PREFIX_PATH=${PACKAGE}")
+refused("CMake has no rules for making files in folders with one of # < >" ${configure} -S "${game}" -B "${game}/build")
+run("" ${configure} -S "${game}" -B "${build}")
+
+# expect_build(WHAT SHADERS BUDGETS COMPILED): whether each step runs; after it there is nothing to do.
+function(expect_build what)
+  # Ninja knows a change by its time.
+  execute_process(COMMAND "${CMAKE_COMMAND}" -E sleep 0.01)
+  run("" "${CMAKE_COMMAND}" --build "${build}")
+  set(steps "Shaders of courtyard" "Budgets of courtyard" "main.cpp.o")
+  foreach(step expected IN ZIP_LISTS steps ARGN)
+    string(FIND "${output}" "${step}" at)
+    if((at EQUAL -1 AND expected) OR (NOT at EQUAL -1 AND NOT expected))
+      message(FATAL_ERROR "${what}: '${step}' was expected to run: ${expected}\n${output}")
+    endif()
+  endforeach()
+  run("no work to do" "${CMAKE_COMMAND}" --build "${build}")
+endfunction()
+
+function(edit file from to)
+  file(READ "${game}/${file}" text)
+  string(REPLACE "${from}" "${to}" edited "${text}")
+  if(text STREQUAL edited)
+    message(FATAL_ERROR "${file} has no '${from}'")
+  endif()
+  file(WRITE "${game}/${file}" "${edited}")
+endfunction()
+
+expect_build("the first build" ON ON ON)
+run("wall.glsl_450 on glsl_450.*sampler height_map" "${build}/game")
+set(before "${output}")
+
+file(TOUCH "${game}/wall.png")
+expect_build("a map was touched" ON ON OFF)
+edit(courtyard.toml "# What the game draws." "# What our game draws.")
+expect_build("a comment of the scene changed" ON ON OFF)
+edit(courtyard.toml "taps = 8" "taps = 9")
+expect_build("a knob changed" ON ON ON)
+run("" "${build}/game")
+if(output STREQUAL before)
+  message(FATAL_ERROR "the game has other shaders now, and says the same of them:\n${output}")
+endif()
+edit(budgets.toml "# The most" "# At most")
+expect_build("a comment of the budgets changed" OFF ON OFF)
+file(TOUCH "${game}/main.cpp")
+expect_build("the game's own source was touched" OFF OFF ON)
+if(TOOL)
+  file(TOUCH "${TOOL}")
+  expect_build("another program" ON ON OFF)
+endif()
+
+# More of a surface's shaders, and of surfaces, than CMake knew when it configured.
+edit(courtyard.toml "\n[[surface]]\nname = \"floor_tiles\"" "\n[[surface]]\nname = \"gate\"\nmaker = \"bricks\"\nwidth = 8\nheight = 8\nsearch = \"none\"\n\n[[surface]]\nname = \"floor_tiles\"")
+expect_build("a surface more" ON ON OFF)
+foreach(name IN ITEMS gate.h gate.glsl_450.frag gate.ps_2_b.pso)
+  if(NOT EXISTS "${build}/shaders/courtyard/${name}")
+    message(FATAL_ERROR "${name} is missing")
+  endif()
+endforeach()
+
+# What is installed is what was built.
+run("" "${CMAKE_COMMAND}" --install "${build}" --prefix "${BINARY}/prefix")
+foreach(name IN ITEMS manifest.json wall.glsl_450.frag wall.glsl_450.frag.spv wall.ps_2_b.pso floor_tiles.glsl_450.vert)
+  file(SHA256 "${build}/shaders/courtyard/${name}" built)
+  file(SHA256 "${BINARY}/prefix/share/game/shaders/${name}" installed)
+  if(NOT built STREQUAL installed)
+    message(FATAL_ERROR "${name} is installed with other bytes")
+  endif()
+endforeach()
+
+# Over budget the build fails, and says by what; a change of the scene that CMake cannot read is named.
+edit(budgets.toml "max = 200" "max = 2")
+refused("over.*total|total.*over" "${CMAKE_COMMAND}" --build "${build}")
+edit(budgets.toml "max = 2" "max = 200")
+edit(courtyard.toml "name = \"gate\"" "name = \"g\\u0061te\"")
+refused("unexpected-outputs" "${CMAKE_COMMAND}" --build "${build}")
+
+# Mistakes of a call.
+function(expect_refusal sentence call)
+  file(WRITE "${BINARY}/mistake/CMakeLists.txt" "cmake_minimum_required(VERSION 3.25)\nproject(mistake LANGUAGES NONE)\n"
+    "find_package(intaglio CONFIG REQUIRED COMPONENTS tool)\nset(scene [==[${game}/courtyard.toml]==])\n${call}\n")
+  refused("${sentence}" ${configure} -S "${BINARY}/mistake" -B "${BINARY}/mistake/build")
+endfunction()
+expect_refusal("unknown argument 'HEADER'" "intaglio_add_shaders(a SCENE \${scene} HEADER)")
+expect_refusal("there is no scene '.*nowhere.toml'" "intaglio_add_shaders(a SCENE nowhere.toml)")
+expect_refusal("SCENE is missing" "intaglio_add_shaders(a)")
+expect_refusal("another call already builds into" "intaglio_add_shaders(a SCENE \${scene})\nintaglio_add_shaders(b SCENE \${scene})")
+expect_refusal("HEADERS is for a target that compiles" "intaglio_add_shaders(a SCENE \${scene} HEADERS)")
+expect_refusal("but not 'tools'" "find_package(intaglio CONFIG REQUIRED COMPONENTS tools)")
+expect_refusal("version.*9" "find_package(intaglio 9 CONFIG REQUIRED)")
