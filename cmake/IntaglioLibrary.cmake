@@ -43,9 +43,17 @@ function(intaglio_precompiled name)
   target_precompile_headers(${name} PRIVATE ${arg_HEADERS})
 endfunction()
 
-# intaglio_library(NAME SOURCES a.cpp ... [LINKS lib ...]): one folder, one static library `intaglio_NAME`.
+# What runs once a command and is long to compile: with sanitizers the optimiser takes most of the time.
+if(INTAGLIO_SANITIZE)
+  set(intaglio_cold_options -O0)
+else()
+  set(intaglio_cold_options -O1)
+endif()
+
+# intaglio_library(NAME SOURCES a.cpp ... [LINKS lib ...] [COLD]): one folder, one static library `intaglio_NAME`.
+# COLD: its time does not matter beside that of what it calls, so it is compiled quickly.
 function(intaglio_library name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(arg "COLD" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
   add_library(intaglio_${name} STATIC ${arg_SOURCES})
   set_property(GLOBAL APPEND PROPERTY intaglio_libraries intaglio_${name})
   target_link_libraries(intaglio_${name} PUBLIC ${arg_LINKS} PRIVATE intaglio_compile_options ${arg_PRIVATE_LINKS})
@@ -54,21 +62,26 @@ function(intaglio_library name)
   if(NOT arg_LINKS)
     return()  # src/reference: no fmt, and nothing of anyone's
   endif()
-  if(NOT TARGET intaglio_library_headers)
-    intaglio_precompiled(intaglio_library_headers LINKS fmt::fmt HEADERS
-      <algorithm> <array> <cmath> <functional> <map> <optional> <string> <vector> <fmt/format.h>)
-    set_target_properties(intaglio_library_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  set(headers intaglio_library_headers)
+  if(arg_COLD)
+    set(headers intaglio_cold_headers)
+    target_compile_options(intaglio_${name} PRIVATE ${intaglio_cold_options})
   endif()
-  target_precompile_headers(intaglio_${name} REUSE_FROM intaglio_library_headers)
+  if(NOT TARGET ${headers})
+    intaglio_precompiled(${headers} LINKS fmt::fmt OPTIONS "$<$<BOOL:${arg_COLD}>:${intaglio_cold_options}>" HEADERS
+      <algorithm> <array> <cmath> <functional> <map> <optional> <string> <vector> <fmt/format.h>)
+    set_target_properties(${headers} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  endif()
+  target_precompile_headers(intaglio_${name} REUSE_FROM ${headers})
 endfunction()
 
 # Tests compile for minutes and run for seconds; GoogleTest takes longer to read than most of them to compile.
 function(intaglio_test_options target)
   if(NOT TARGET intaglio_test_headers)
-    intaglio_precompiled(intaglio_test_headers LINKS GTest::gmock OPTIONS -O1 HEADERS
+    intaglio_precompiled(intaglio_test_headers LINKS GTest::gmock OPTIONS ${intaglio_cold_options} HEADERS
       <gmock/gmock.h> <gtest/gtest.h> <algorithm> <functional> <map> <optional> <random> <string> <vector>)
   endif()
-  target_compile_options(${target} PRIVATE -O1)
+  target_compile_options(${target} PRIVATE ${intaglio_cold_options})
   target_precompile_headers(${target} REUSE_FROM intaglio_test_headers)
 endfunction()
 
