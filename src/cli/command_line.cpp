@@ -11,6 +11,7 @@
 #include "src/cli/description.h"
 #include "src/cli/hard.h"
 #include "src/cli/plan.h"
+#include "src/cli/savings.h"
 #include "src/cli/sweep.h"
 #include "src/plan/plan.h"
 
@@ -435,6 +436,7 @@ void add_commands(CLI::App& app, const dsl::Catalogue& catalogue, std::function<
     }
     add_report(app, catalogue, chosen);
     add_plan(app, catalogue, chosen);
+    add_savings(app, catalogue, chosen);
     add_sweep(app, catalogue, chosen);
     add_bake(app, chosen);
     add_build(app, catalogue, chosen);
