@@ -37,7 +37,7 @@ Saving::Side side_of(const measure::Measurement& measured, std::size_t row, std:
     side.bytes = static_cast<double>(bytes);
     for (const CaseResult& result : measured.cases)
         if (result.row == static_cast<int>(row)) {
-            side.p95 = std::max(side.p95, result.hits.texels.p95);
+            side.p95 = std::max(side.p95, result.hits.p95);
             side.missed = std::max(side.missed, 100.0 * static_cast<double>(result.hits.missed) /
                                                     static_cast<double>(result.hits.pixels));
         }
