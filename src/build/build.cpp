@@ -207,6 +207,9 @@ Result<BuildReport> build_scene(const dsl::Catalogue& catalogue, const BuildOpti
     // Before the lock, so that a folder that cannot be written is no trouble where nothing is to
     // do.
     if (!options.force && is_current(stamp, request)) return current;
+    // A scene that cannot be read makes no folder either.
+    if (const Result<scene::Scene> scene = scene_of(catalogue, options); !scene)
+        return scene.error();
     Result<OutputFolder> folder = OutputFolder::open(options.output);
     if (!folder) return folder.error();
     // And after it: another build may just have done the same.
