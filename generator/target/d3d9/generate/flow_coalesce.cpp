@@ -20,7 +20,8 @@ void Merging::refresh() {
     read_.assign(registers, 0);
     restricted_.assign(registers, 0);
     constants_.assign(registers, {});
-    written_by_.assign(registers, {});
+    written_by_.resize(registers);
+    for (std::vector<std::size_t>& list : written_by_) list.clear();
     for (std::size_t i = 0; i < code_.instructions.size(); ++i) {
         const VirtualInstruction& instruction = code_.instructions[i];
         for (std::size_t s = 0; s < instruction.sources.size(); ++s) {
@@ -72,7 +73,7 @@ std::optional<std::uint32_t> Merging::constant_in(int reg, int lane) const {
 bool Merging::overwrites(int a, int x, int b, int y) const {
     for (const std::size_t i : written_by_[static_cast<std::size_t>(a)]) {
         const VirtualInstruction& instruction = code_.instructions[i];
-        if ((instruction.mask >> x & 1) == 0 || !live_[i].has(b, y)) continue;
+        if ((instruction.mask >> x & 1) == 0 || !live_.has(i, b, y)) continue;
         const bool same = is_copy(instruction) &&
                           instruction.sources[0].kind == VirtualSource::Kind::Temp &&
                           !instruction.sources[0].negate && !instruction.sources[0].absolute &&
@@ -141,45 +142,46 @@ Mask permuted(Mask mask, const Permutation& lanes) {
 
 }  // namespace
 
-void Merging::merge(int from, int into, const Permutation& lanes) {
-    for (VirtualInstruction& instruction : code_.instructions) {
-        for (VirtualSource& source : instruction.sources) {
-            if (source.kind != VirtualSource::Kind::Temp || source.index != from) continue;
-            source.index = into;
-            for (std::uint8_t& lane : source.swizzle) lane = static_cast<std::uint8_t>(lanes[lane]);
-        }
-        if (instruction.target != from) continue;
-        instruction.target = into;
-        if (info(instruction.op).lanes == Lanes::Masked)
-            for (VirtualSource& source : instruction.sources)
-                permute_positions(source, lanes, instruction.mask);
-        if (info(instruction.op).lanes == Lanes::Coordinate) {
-            const Swizzle before = instruction.sampler_swizzle;
-            for (std::size_t k = 0; k < 4; ++k)
-                instruction.sampler_swizzle[static_cast<std::size_t>(lanes[k])] = before[k];
-        }
-        instruction.mask = permuted(instruction.mask, lanes);
+void rename(VirtualInstruction& instruction, int from, int into, const Permutation& lanes) {
+    for (VirtualSource& source : instruction.sources) {
+        if (source.kind != VirtualSource::Kind::Temp || source.index != from) continue;
+        source.index = into;
+        for (std::uint8_t& lane : source.swizzle) lane = static_cast<std::uint8_t>(lanes[lane]);
     }
-    drop_idle_moves();
-    refresh();
+    if (instruction.target != from) return;
+    instruction.target = into;
+    if (info(instruction.op).lanes == Lanes::Masked)
+        for (VirtualSource& source : instruction.sources)
+            permute_positions(source, lanes, instruction.mask);
+    if (info(instruction.op).lanes == Lanes::Coordinate) {
+        const Swizzle before = instruction.sampler_swizzle;
+        for (std::size_t k = 0; k < 4; ++k)
+            instruction.sampler_swizzle[static_cast<std::size_t>(lanes[k])] = before[k];
+    }
+    instruction.mask = permuted(instruction.mask, lanes);
 }
 
-// A mov from a lane to itself, and a constant where it is already.
-void Merging::drop_idle_moves() {
-    std::vector<VirtualInstruction> kept;
+bool drop_idle_lanes(VirtualInstruction& instruction) {
+    if (!writes(instruction) || !is_copy(instruction)) return true;
+    const VirtualSource& source = instruction.sources[0];
+    if (source.kind != VirtualSource::Kind::Temp || source.negate || source.absolute ||
+        source.index != instruction.target)
+        return instruction.mask != 0;
+    for (std::size_t k = 0; k < 4; ++k)
+        if (source.swizzle[k] == k)
+            instruction.mask = static_cast<Mask>(instruction.mask & ~(1 << k));
+    return instruction.mask != 0;
+}
+
+void Merging::merge(int from, int into, const Permutation& lanes) {
     for (VirtualInstruction& instruction : code_.instructions) {
-        if (writes(instruction) && is_copy(instruction)) {
-            const VirtualSource& source = instruction.sources[0];
-            for (std::size_t k = 0; k < 4; ++k)
-                if (source.kind == VirtualSource::Kind::Temp && !source.negate &&
-                    !source.absolute && source.index == instruction.target &&
-                    source.swizzle[k] == k)
-                    instruction.mask = static_cast<Mask>(instruction.mask & ~(1 << k));
-            if (instruction.mask == 0) continue;
-        }
-        kept.push_back(std::move(instruction));
+        rename(instruction, from, into, lanes);
+        drop_idle_lanes(instruction);
     }
-    code_.instructions = std::move(kept);
+    std::erase_if(code_.instructions, [](const VirtualInstruction& instruction) {
+        return is_copy(instruction) && instruction.mask == 0;
+    });
+    refresh();
 }
 
 const std::vector<Permutation>& all_permutations() {

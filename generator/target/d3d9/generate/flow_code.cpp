@@ -113,43 +113,41 @@ bool obeys_ports(const VirtualInstruction& instruction) {
     return values.size() <= 4 && (plain == 0 || absolute == 0);
 }
 
-namespace {
-
-// From the lanes that are live after the instruction to those before it.
-void step_back(const FlowCode& code, const VirtualInstruction& instruction, LaneSet& live) {
-    if (writes(instruction))
-        for (int lane = 0; lane < 4; ++lane)
-            if ((instruction.mask >> lane & 1) != 0) live.erase(instruction.target, lane);
-    for (std::size_t s = 0; s < instruction.sources.size(); ++s) {
-        const VirtualSource& source = instruction.sources[s];
-        if (source.kind != VirtualSource::Kind::Temp) continue;
-        const Mask positions = positions_of_source(code, instruction, s);
-        for (std::size_t k = 0; k < 4; ++k)
-            if ((positions >> k & 1) != 0) live.insert(source.index, source.swizzle[k]);
-    }
-}
-
-}  // namespace
-
-std::vector<LaneSet> live_after(const FlowCode& code) {
+LaneSets live_after(const FlowCode& code) {
     const std::size_t count = code.instructions.size();
     const auto successors = successors_of(code);
-    std::vector<LaneSet> after(count, LaneSet(code.registers)), before = after;
-    before.emplace_back(code.registers);  // at the end
+    LaneSets after(count, code.registers), read = after, written = after;
+    LaneSets before(count + 1, code.registers);  // the last: at the end
     for (int k = 0; k < code.outputs; ++k)
-        for (int lane = 0; lane < 4; ++lane) before.back().insert(k, lane);
-    LaneSet live(code.registers);
+        for (int lane = 0; lane < 4; ++lane) before.insert(count, k, lane);
+    for (std::size_t i = 0; i < count; ++i) {
+        const VirtualInstruction& instruction = code.instructions[i];
+        if (writes(instruction))
+            for (int lane = 0; lane < 4; ++lane)
+                if ((instruction.mask >> lane & 1) != 0)
+                    written.insert(i, instruction.target, lane);
+        for (std::size_t s = 0; s < instruction.sources.size(); ++s) {
+            const VirtualSource& source = instruction.sources[s];
+            if (source.kind != VirtualSource::Kind::Temp) continue;
+            const Mask positions = positions_of_source(code, instruction, s);
+            for (std::size_t k = 0; k < 4; ++k)
+                if ((positions >> k & 1) != 0) read.insert(i, source.index, source.swizzle[k]);
+        }
+    }
     for (bool changed = true; changed;) {
         changed = false;
         for (std::size_t i = count; i-- > 0;) {
-            live.clear();
-            for (const int next : successors[i])
-                if (next >= 0) live.unite(before[static_cast<std::size_t>(next)]);
-            after[i] = live;
-            step_back(code, code.instructions[i], live);
-            if (live == before[i]) continue;
-            changed = true;
-            before[i] = live;
+            const auto [first, second] = successors[i];
+            const std::uint64_t* one = before.words(static_cast<std::size_t>(first));
+            const std::uint64_t* other =
+                second < 0 ? one : before.words(static_cast<std::size_t>(second));
+            for (std::size_t k = 0; k < after.width(); ++k) {
+                const std::uint64_t live = one[k] | other[k];
+                after.words(i)[k] = live;
+                const std::uint64_t needed = (live & ~written.words(i)[k]) | read.words(i)[k];
+                changed = changed || needed != before.words(i)[k];
+                before.words(i)[k] = needed;
+            }
         }
     }
     return after;

@@ -47,22 +47,36 @@ class LaneSet {
     bool has(int reg, int lane) const { return (words_[word(reg)] >> bit(reg, lane) & 1) != 0; }
     void insert(int reg, int lane) { words_[word(reg)] |= std::uint64_t{1} << bit(reg, lane); }
     void erase(int reg, int lane) { words_[word(reg)] &= ~(std::uint64_t{1} << bit(reg, lane)); }
-    void clear() { std::fill(words_.begin(), words_.end(), 0); }
-    void unite(const LaneSet& other) {
-        for (std::size_t i = 0; i < words_.size(); ++i) words_[i] |= other.words_[i];
-    }
-    friend bool operator==(const LaneSet&, const LaneSet&) = default;
-
-  private:
     static std::size_t word(int reg) { return static_cast<std::size_t>(reg) / 16; }
     static unsigned bit(int reg, int lane) {
         return static_cast<unsigned>(reg % 16) * 4 + static_cast<unsigned>(lane);
     }
+
+  private:
+    std::vector<std::uint64_t> words_;
+};
+
+// A set of lanes for each instruction, all in one piece of memory.
+class LaneSets {
+  public:
+    explicit LaneSets(std::size_t count = 0, int registers = 0)
+        : width_((static_cast<std::size_t>(registers) * 4 + 63) / 64), words_(count * width_) {}
+    bool has(std::size_t set, int reg, int lane) const {
+        return (words_[set * width_ + LaneSet::word(reg)] >> LaneSet::bit(reg, lane) & 1) != 0;
+    }
+    void insert(std::size_t set, int reg, int lane) {
+        words_[set * width_ + LaneSet::word(reg)] |= std::uint64_t{1} << LaneSet::bit(reg, lane);
+    }
+    std::size_t width() const { return width_; }
+    std::uint64_t* words(std::size_t set) { return words_.data() + set * width_; }
+
+  private:
+    std::size_t width_;
     std::vector<std::uint64_t> words_;
 };
 
 // After each instruction: the lanes that are read later, whichever way execution goes.
-std::vector<LaneSet> live_after(const FlowCode& code);
+LaneSets live_after(const FlowCode& code);
 
 // Each keeps what the code computes and answers whether it changed anything.
 //

@@ -258,16 +258,30 @@ class Fusing {
         if (x && y && (x->kind != y->kind || x->index != y->index)) return false;
         for (const Permutation& lanes : all_permutations()) {
             if (!merging_.can_merge(b, a, lanes)) continue;
+            if (!would_join(i, j, lanes)) continue;
             // On a copy: merging that does not help is not done.
             FlowCode trial = code_;
-            Merging merging(trial);
-            const std::size_t before = trial.instructions.size();
-            merging.merge(b, a, lanes);
-            if (trial.instructions.size() != before || !fuse_in_place(trial, i, j)) continue;
+            bool all_left = true;
+            for (VirtualInstruction& instruction : trial.instructions) {
+                rename(instruction, b, a, lanes);
+                all_left = drop_idle_lanes(instruction) && all_left;
+            }
+            if (!all_left || !fuse_in_place(trial, i, j)) continue;
             code_ = std::move(trial);
             return finish();
         }
         return false;
+    }
+    // Whether the two alone could be one, the second's register being the first's.
+    bool would_join(std::size_t i, std::size_t j, const Permutation& lanes) const {
+        VirtualInstruction first = code_.instructions[i], second = code_.instructions[j];
+        const int into = first.target, from = second.target;
+        for (VirtualInstruction* each : {&first, &second}) {
+            rename(*each, from, into, lanes);
+            if (!drop_idle_lanes(*each)) return false;
+        }
+        const auto both = joined(*affine_of(first), *affine_of(second));
+        return both && instruction_for(*both, first);
     }
     bool finish() {
         merging_.refresh();

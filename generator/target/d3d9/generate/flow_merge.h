@@ -12,6 +12,11 @@ namespace intaglio::d3d9 {
 using Permutation = std::array<int, 4>;              // lane k goes to lane [k]
 const std::vector<Permutation>& all_permutations();  // the identity first
 
+// What was in register `from` is in `into`, its lanes there.
+void rename(VirtualInstruction& instruction, int from, int into, const Permutation& lanes);
+// Of a mov, those from a lane to itself; whether it has anything left to do.
+bool drop_idle_lanes(VirtualInstruction& instruction);
+
 class Merging {
   public:
     explicit Merging(FlowCode& code);
@@ -45,10 +50,9 @@ class Merging {
     bool overwrites(int a, int x, int b, int y) const;
     bool interfere(int a, int x, int b, int y) const;
     bool keeps_macros(int from, int into) const;
-    void drop_idle_moves();
 
     FlowCode& code_;
-    std::vector<LaneSet> live_;
+    LaneSets live_;
     std::vector<Mask> used_;
     std::vector<int> read_;
     std::vector<char> restricted_;  // written by a macro whose lanes are not free

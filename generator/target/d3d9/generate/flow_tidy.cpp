@@ -195,7 +195,7 @@ bool remove_dead_lanes(FlowCode& code) {
     bool any = false;
     for (bool changed = true; changed;) {
         changed = false;
-        const std::vector<LaneSet> live = live_after(code);
+        const LaneSets live = live_after(code);
         std::vector<VirtualInstruction> kept;
         for (std::size_t i = 0; i < code.instructions.size(); ++i) {
             VirtualInstruction instruction = std::move(code.instructions[i]);
@@ -203,7 +203,7 @@ bool remove_dead_lanes(FlowCode& code) {
                 Mask mask = 0;
                 for (int lane = 0; lane < 4; ++lane)
                     if ((instruction.mask >> lane & 1) != 0 &&
-                        live[i].has(instruction.target, lane))
+                        live.has(i, instruction.target, lane))
                         mask = static_cast<Mask>(mask | (1 << lane));
                 if (mask != 0 && info(instruction.op).has(Trait::Macro)) mask = instruction.mask;
                 changed = changed || mask != instruction.mask;

@@ -55,6 +55,8 @@ class Sort {
         : graph_(graph), order_(order), state_(graph.nodes.size()), weight_(graph.nodes.size()) {}
 
     std::vector<int> run() {
+        // Weighing what is cyclic takes long.
+        if (order_ == Order::Heavy && Sort(graph_, Order::Depth).run().empty()) return {};
         for (const Operand& output : graph_.outputs) visit_all(output);
         if (cyclic_) return {};
         if (order_ == Order::Source) return by_source();
