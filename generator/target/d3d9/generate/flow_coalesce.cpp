@@ -20,6 +20,7 @@ void Merging::refresh() {
     read_.assign(registers, 0);
     restricted_.assign(registers, 0);
     constants_.assign(registers, {});
+    macros_.clear();
     written_by_.resize(registers);
     for (std::vector<std::size_t>& list : written_by_) list.clear();
     for (std::size_t i = 0; i < code_.instructions.size(); ++i) {
@@ -32,6 +33,7 @@ void Merging::refresh() {
         if (!writes(instruction)) continue;
         const auto target = static_cast<std::size_t>(instruction.target);
         written_by_[target].push_back(i);
+        if (info(instruction.op).has(Trait::Macro)) macros_.push_back(i);
         used_[target] = static_cast<Mask>(used_[target] | instruction.mask);
         const Lanes lanes = info(instruction.op).lanes;
         const bool free = lanes == Lanes::Masked || lanes == Lanes::First || lanes == Lanes::Dot2 ||
@@ -105,8 +107,8 @@ bool Merging::can_merge(int from, int into, const Permutation& lanes) const {
 
 // Some macros may not write a register that they read.
 bool Merging::keeps_macros(int from, int into) const {
-    for (const VirtualInstruction& instruction : code_.instructions) {
-        if (!writes(instruction) || !info(instruction.op).has(Trait::Macro)) continue;
+    for (const std::size_t i : macros_) {
+        const VirtualInstruction& instruction = code_.instructions[i];
         if (instruction.target != from && instruction.target != into) continue;
         for (const VirtualSource& source : instruction.sources)
             if (source.kind == VirtualSource::Kind::Temp &&

@@ -228,6 +228,14 @@ class Composing {
     FlowCode& code_;
 };
 
+bool names(const VirtualInstruction& instruction, int reg) {
+    return instruction.target == reg ||
+           std::any_of(instruction.sources.begin(), instruction.sources.end(),
+                       [&](const VirtualSource& source) {
+                           return source.kind == VirtualSource::Kind::Temp && source.index == reg;
+                       });
+}
+
 class Fusing {
   public:
     explicit Fusing(FlowCode& code) : code_(code), merging_(code) {}
@@ -272,16 +280,29 @@ class Fusing {
         }
         return false;
     }
-    // Whether the two alone could be one, the second's register being the first's.
+    // Whether fuse_in_place() would do it, the second's register being the first's.
     bool would_join(std::size_t i, std::size_t j, const Permutation& lanes) const {
-        VirtualInstruction first = code_.instructions[i], second = code_.instructions[j];
+        VirtualInstruction first = code_.instructions[i], second = code_.instructions[j], other;
         const int into = first.target, from = second.target;
-        for (VirtualInstruction* each : {&first, &second}) {
-            rename(*each, from, into, lanes);
-            if (!drop_idle_lanes(*each)) return false;
-        }
+        const auto renamed = [&](VirtualInstruction& each) {
+            rename(each, from, into, lanes);
+            return drop_idle_lanes(each);
+        };
+        if (!renamed(first) || !renamed(second)) return false;
         const auto both = joined(*affine_of(first), *affine_of(second));
-        return both && instruction_for(*both, first);
+        if (!both || !instruction_for(*both, first) || !commute(code_, first, second)) return false;
+        bool early = true, late = true;
+        for (std::size_t k = i + 1; k < j && (early || late); ++k) {
+            const VirtualInstruction* between = &code_.instructions[k];
+            if (names(*between, from)) {
+                other = *between;
+                if (!renamed(other)) return false;
+                between = &other;
+            }
+            early = early && commute(code_, second, *between);
+            late = late && commute(code_, first, *between);
+        }
+        return early || late;
     }
     bool finish() {
         merging_.refresh();

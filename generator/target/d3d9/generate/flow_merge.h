@@ -58,6 +58,7 @@ class Merging {
     std::vector<char> restricted_;  // written by a macro whose lanes are not free
     std::vector<std::array<ConstantLane, 4>> constants_;
     std::vector<std::vector<std::size_t>> written_by_;
+    std::vector<std::size_t> macros_;
 };
 
 }  // namespace intaglio::d3d9
