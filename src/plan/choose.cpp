@@ -109,10 +109,8 @@ Status Chooser::predict(Pair& pair) {
     if (pair.shadow) shadowed = *pair.shadow->trial;
     if (straight()) {
         const auto size = [&](const Tried& search, const Tried* shadow, Trial& into) -> Status {
-            VariantRequest request =
-                work_.request("glsl_450", search.rung, shadow ? &shadow->rung : nullptr);
             const Result<Trial> trial =
-                work_.kept.run(work_.site, request, work_.hit_rays, Ask::Size);
+                work_.written_out(search.rung, shadow ? &shadow->rung : nullptr);
             if (!trial) return trial.error();
             into = *trial;
             return Done{};

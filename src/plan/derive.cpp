@@ -225,6 +225,13 @@ std::string SurfaceWork::like(const VariantRequest& request, Ask ask) const {
     return !own.empty() && own == text(stand_in) ? std::string(stand_in) : request.target;
 }
 
+Result<Trial> SurfaceWork::written_out(const Rung& search, const Rung* shadow) const {
+    const std::string key = search.text() + "," + (shadow ? shadow->text() : "");
+    return *sizes.get(key, [&] {
+        return kept.run(site, request("glsl_450", search, shadow), hit_rays, Ask::Size);
+    });
+}
+
 std::string SurfaceWork::optimized(const VariantRequest& request) const {
     Result<Recorded> recorded = record_variant(catalogue, request);
     if (!recorded) return {};

@@ -58,6 +58,7 @@ struct SurfaceWork {
     std::size_t base = 0;  // of searches: the most accurate, whose hits the shadows were tried on
     Trial shading{};       // what all that is neither search nor shadow costs
     std::vector<Dropped> dropped{};
+    mutable measure::SharedCache<Result<Trial>> sizes{1 << 16};  // of written_out()
 
     bool wants_shadow() const { return !common.shadowing.empty(); }
     const Rays& rays() const { return wants_shadow() ? shadow_rays : hit_rays; }
@@ -73,6 +74,8 @@ struct SurfaceWork {
     VariantRequest knowing(VariantRequest request, const passes::Known& known) const;
     // Operations and reads of the shaded surface where its target has it.
     Result<Trial> price(const VariantRequest& request) const;
+    // Ask::Size of both, recorded once for all pairs and targets that ask.
+    Result<Trial> written_out(const Rung& search, const Rung* shadow) const;
     // Whose trial stands for this one: glsl_450's wherever the techniques record the same for it.
     std::string like(const VariantRequest& request, Ask ask) const;
     // What the passes make of it, as text.
