@@ -257,8 +257,8 @@ Result<Interface> interface_of(const Variant& variant, const Accepted& accepted)
         const bool vertex = stage == ir::Stage::Vertex;
         const Result<check::Reflection> reflection =
             blocks || hlsl
-                ? check::reflect(vertex ? accepted.program->vertex : accepted.program->pixel)
-                : check::reflect_names(source_of(variant, stage));
+                ? check::reflect_valid(vertex ? accepted.program->vertex : accepted.program->pixel)
+                : accepted.names[vertex ? 0 : 1];
         if (!reflection) return reflection.error();
         Result<StageInterface> made = blocks ? from_spirv(variant, stage, *reflection)
                                              : from_names(variant, stage, *reflection);

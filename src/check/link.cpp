@@ -144,9 +144,9 @@ Result<Program> link_to_spirv(const Source& vertex, const Source& pixel) {
     Result<Program> program =
         is_hlsl(pixel.language) ? link_apart(vertex, pixel) : link_together(vertex, pixel);
     if (!program) return program.error();
-    const Result<Reflection> vertex_view = reflect(program->vertex);
+    const Result<Reflection> vertex_view = reflect_valid(program->vertex);
     if (!vertex_view) return vertex_view.error();
-    const Result<Reflection> pixel_view = reflect(program->pixel);
+    const Result<Reflection> pixel_view = reflect_valid(program->pixel);
     if (!pixel_view) return pixel_view.error();
     if (Status fit = check_varyings(*vertex_view, *pixel_view, pixel); !fit) return fit.error();
     if (Status fit = check_blocks(*vertex_view, *pixel_view, pixel); !fit) return fit.error();

@@ -159,6 +159,10 @@ class Reader {
 
 Result<Reflection> reflect(const SpirvWords& words) {
     if (Status valid = validate_spirv(words); !valid) return valid.error();
+    return reflect_valid(words);
+}
+
+Result<Reflection> reflect_valid(const SpirvWords& words) {
     try {
         return Reader(words).read();
     } catch (const spirv_cross::CompilerError& error) {

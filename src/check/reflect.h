@@ -69,6 +69,9 @@ struct Reflection {
 // anything.  The module is validated first ("spirv-invalid"). Error "spirv-unreadable": SPIRV-Cross
 // gives up.
 Result<Reflection> reflect(const SpirvWords& words);
+// The same of a module that spirv-val took before, as it took all that frontend.h returns: asking
+// it again costs more than the reading.
+Result<Reflection> reflect_valid(const SpirvWords& words);
 
 // The same of GLSL whose uniforms have names and no places (Glsl330, Essl300, Glsl120, Essl100), by
 // glslang's own reflection of the text: what the stage reads, by name, all places -1, the loose

@@ -48,8 +48,10 @@ Result<Accepted> accept_variant(const Variant& variant) {
                            *language != check::Language::Hlsl3;
     if (own_rules)
         for (const ir::Stage stage : stages) {
-            if (Status parsed = check::parse(source_of(variant, stage)); !parsed)
-                return parsed.error();
+            // Parses, and keeps what later would be parsed for again.
+            Result<check::Reflection> names = check::reflect_names(source_of(variant, stage));
+            if (!names) return names.error();
+            accepted.names.push_back(std::move(*names));
             accepted.steps.push_back(
                 fmt::format("{}: glslang {}", word(stage), name_of(*language)));
         }

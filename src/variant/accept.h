@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "generator/base/result.h"
+#include "src/check/reflect.h"
 #include "src/variant/variant.h"
 
 namespace intaglio {
@@ -19,6 +20,8 @@ struct Accepted {
     // for a vertex profile alone.
     std::optional<check::Program> program;
     std::vector<d3d9::Shader> shaders;  // Direct3D 9: as decoded from their bytes, vertex first
+    // Vertex and pixel, of a language whose uniforms have names and no places: see reflect_names.
+    std::vector<check::Reflection> names;
 };
 
 // Errors: those of the first witness that refuses; "no-witness" for a target without one.
