@@ -9,7 +9,7 @@ started_in="$PWD" command_line=("$0" "$@")  # of the script that sources this
 # shellcheck disable=SC2034
 intaglio_packages=(
     # compilers and build
-    g++ clang libclang-rt-14-dev cmake ninja-build pkg-config ccache mold git ca-certificates
+    g++ clang libclang-rt-14-dev cmake ninja-build make pkg-config ccache mold git ca-certificates
     # names and lines in the reports of the sanitizers
     llvm-14
     # validators and translators
