@@ -13,7 +13,7 @@ import jsonschema
 
 SCENE = """
 name = "harbour"
-targets = ["ps_2_0", "vs_2_0", "glsl_450", "glsl_330", "essl_100", "hlsl_5_0", "hlsl_3_0", "spirv", "msl"]
+targets = ["ps_2_0", "ps_3_0", "glsl_450", "glsl_330", "essl_100", "hlsl_5_0", "hlsl_3_0", "spirv", "msl"]
 [tolerance]
 p95 = 100
 [[light]]
