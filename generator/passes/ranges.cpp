@@ -208,8 +208,9 @@ Range sqrt(const Range& a) {
     Range result = ends({a.least < 0 ? -0.0 : a.least, a.most < 0 ? -0.0 : a.most, a.nan}, F::sqrt);
     if (a.empty()) return {inf, -inf, a.nan};
     result.nan |= a.least < 0;
-    // A negative number below the least normal one is flushed to either zero, by compiler.
-    if (a.least < 0 && result.most == 0) result.most = 0.0;
+    // What is zero, or is flushed to it, has a root of either sign, by compiler.
+    if (result.most == 0) result.most = 0.0;
+    if (result.least == 0) result.least = -0.0;
     return widened(result, device_share);
 }
 
