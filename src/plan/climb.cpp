@@ -110,10 +110,10 @@ std::vector<std::string> names_in(const Entries& entries, const std::string& pin
 }
 
 Status measure_shading(SurfaceWork& work) {
-    const Tried& under = work.searches[work.base];
-    if (!under.trial)
+    if (work.searches.empty() || !work.searches[work.base].trial)
         return input_error("nothing-to-choose",
                            fmt::format("no search is left for the surface {}", work.surface.name));
+    const Tried& under = work.searches[work.base];
     const Result<Trial> whole = work.kept.run(
         work.site, work.request("glsl_450", under.rung, nullptr), work.hit_rays, Ask::Cost);
     if (!whole) return whole.error();

@@ -119,18 +119,30 @@ void derive_known(SurfaceWork& work) {
 
 Status check_names(const SurfaceWork& work) {
     std::vector<std::string> names;
-    const auto add = [&](const auto& technique) {
-        for (const dsl::KnobBase* knob : technique->knobs()) names.push_back(knob->name());
+    std::map<std::string, Status> taken;  // by knob, what a technique says that has it
+    const auto look_at = [&](const std::vector<dsl::KnobBase*>& knobs) {
+        for (dsl::KnobBase* knob : knobs) {
+            names.push_back(knob->name());
+            for (const auto& [name, value] : work.surface.knobs) {
+                if (name != knob->name()) continue;
+                const auto [place, is_new] = taken.try_emplace(name, knob->set(value));
+                // One technique that takes the value is enough.
+                if (!is_new && !place->second) place->second = knob->set(value);
+            }
+        }
     };
+    const auto add = [&](const auto& technique) { look_at(technique->knobs()); };
     for (const auto& entry : work.catalogue.searches) add(entry.make());
     for (const auto& entry : work.catalogue.shadows) add(entry.make());
     const Result<dsl::Surface> surface = dsl::make_surface(
         work.catalogue, "search=" + work.catalogue.searches.front().name + work.common.rest);
     if (!surface) return surface.error();
-    for (const dsl::KnobBase* knob : surface->knobs()) names.push_back(knob->name());
-    for (const auto& [knob, value] : work.surface.knobs)
+    look_at(surface->knobs());
+    for (const auto& [knob, value] : work.surface.knobs) {
         if (std::find(names.begin(), names.end(), knob) == names.end())
             return input_error("unknown-knob", unknown_name_sentence("knob", knob, names));
+        if (!taken.at(knob)) return taken.at(knob).error();
+    }
     const auto check = [&](const auto& table, const char* kind, const std::string& pinned) {
         std::vector<std::string> all;
         for (const auto& entry : table) all.push_back(entry.name);

@@ -209,6 +209,9 @@ TEST(Plan, RefusesUnknownNames) {
     EXPECT_EQ(code(options), "unknown-target");
     scene.surfaces[0].knobs = {{"tap", "3"}};
     EXPECT_EQ(code(), "unknown-knob");
+    scene.surfaces[0].parts["search"] = "parallax_occlusion";
+    scene.surfaces[0].knobs = {{"taps", "9000"}};
+    EXPECT_EQ(code(), "knob-range");
     scene.surfaces[0].knobs = {};
     scene.surfaces[0].parts["search"] = "cones";
     EXPECT_EQ(code(), "unknown-technique");
