@@ -2,6 +2,7 @@
 #include "generator/target/clike/names.h"
 
 #include <cctype>
+#include <unordered_set>
 
 #include <fmt/format.h>
 
@@ -62,6 +63,18 @@ constexpr std::string_view sampler_prefixes[] = {
     "sampler",   "isampler", "usampler", "image",    "iimage",   "uimage",  "Texture",
     "RWTexture", "Buffer",   "Sampler",  "texture1", "texture2", "texture3"};
 
+const std::unordered_set<std::string_view>& reserved_set() {
+    static const std::unordered_set<std::string_view> words = [] {
+        std::unordered_set<std::string_view> set;
+        std::string_view rest = reserved_words;
+        for (std::size_t end; (end = rest.find(' ')) != std::string_view::npos;
+             rest.remove_prefix(end + 1))
+            if (end > 0) set.insert(rest.substr(0, end));
+        return set;
+    }();
+    return words;
+}
+
 bool is_shape_suffix(std::string_view text) {
     for (char c : text)
         if (!std::isdigit(static_cast<unsigned char>(c)) && c != 'x') return false;
@@ -71,7 +84,7 @@ bool is_shape_suffix(std::string_view text) {
 }  // namespace
 
 bool is_reserved(std::string_view name) {
-    if (reserved_words.find(fmt::format(" {} ", name)) != std::string_view::npos) return true;
+    if (reserved_set().contains(name)) return true;
     for (std::string_view prefix : typed_prefixes)
         if (name.starts_with(prefix) && is_shape_suffix(name.substr(prefix.size()))) return true;
     // sampler2DShadow, Texture2D, imageCube: a capital or a digit after the prefix marks a type.
