@@ -28,7 +28,7 @@ class Closer {
     explicit Closer(Module& module) : module_(module), substitution_(module) {}
 
     std::vector<std::string> run() {
-        visit(module_.body);
+        if (contains_op(module_.body, Op::Loop)) visit(module_.body);
         substitute(module_.body, substitution_);
         compact_values(module_);
         return std::move(sentences_);

@@ -3,7 +3,7 @@
 #include "generator/passes/eliminate_common_subexpressions.h"
 
 #include <algorithm>
-#include <unordered_map>
+#include <bit>
 
 #include "generator/passes/rewrite.h"
 
@@ -16,7 +16,8 @@ using namespace ir;
 struct Expression {
     Op op = Op::Constant;
     Type type;
-    std::vector<ValueId> operands;
+    std::uint8_t operand_count = 0;
+    std::array<ValueId, 4> operands{};
     std::array<std::uint32_t, 4> bits{};
     std::array<std::uint8_t, 4> lanes{};
     int slot = 0;
@@ -24,21 +25,58 @@ struct Expression {
     friend bool operator==(const Expression&, const Expression&) = default;
 };
 
-struct ExpressionHash {
-    std::size_t operator()(const Expression& expression) const {
-        std::size_t hash = static_cast<std::size_t>(expression.op);
-        const auto mix = [&](std::size_t value) {
-            hash = (hash ^ value) * 0x9e3779b97f4a7c15ull + (hash >> 29);
-        };
-        mix(static_cast<std::size_t>(expression.type.width) * 4 +
-            static_cast<std::size_t>(expression.type.scalar));
-        for (ValueId operand : expression.operands) mix(index_of(operand));
-        for (std::uint32_t bits : expression.bits) mix(bits);
-        for (std::uint8_t lane : expression.lanes) mix(lane);
-        mix(static_cast<std::size_t>(expression.slot));
-        mix(static_cast<std::size_t>(expression.element));
-        return hash;
+std::uint64_t hash_of(const Expression& expression) {
+    std::uint64_t hash = 0;
+    const auto mix = [&](std::uint64_t high, std::uint64_t low) {
+        hash = (hash ^ (high << 32) ^ low) * 0x9e3779b97f4a7c15ull;
+        hash ^= hash >> 29;
+    };
+    const auto& [a, b, c, d] = expression.operands;
+    const auto& [x, y, z, w] = expression.bits;
+    mix(index_of(a), index_of(b));
+    mix(index_of(c), index_of(d));
+    mix(x, y);
+    mix(z, w);
+    mix(std::bit_cast<std::uint32_t>(expression.lanes), static_cast<std::uint32_t>(expression.op));
+    mix(static_cast<std::uint32_t>(expression.slot),
+        static_cast<std::uint32_t>(expression.element));
+    return hash;
+}
+
+// The expressions that are available, newest first: leaving a region takes away those of the end.
+class Available {
+  public:
+    explicit Available(std::size_t most) : newest_(std::bit_ceil(most + 1), none) {}
+
+    // The value of the equal expression; if there is none, `value` from now on, and nullptr.
+    const ValueId* find_or_add(const Expression& expression, ValueId value) {
+        const std::uint64_t hash = hash_of(expression);
+        std::uint32_t& newest = newest_[hash & (newest_.size() - 1)];
+        for (std::uint32_t at = newest; at != none; at = entries_[at].next)
+            if (entries_[at].hash == hash && entries_[at].expression == expression)
+                return &entries_[at].value;
+        entries_.push_back({expression, value, hash, newest});
+        newest = static_cast<std::uint32_t>(entries_.size()) - 1;
+        return nullptr;
     }
+
+    std::size_t count() const { return entries_.size(); }
+    void forget_from(std::size_t count) {
+        for (; entries_.size() > count; entries_.pop_back())
+            newest_[entries_.back().hash & (newest_.size() - 1)] = entries_.back().next;
+    }
+
+  private:
+    static constexpr std::uint32_t none = ~0u;
+
+    struct Entry {
+        Expression expression;
+        ValueId value;
+        std::uint64_t hash;
+        std::uint32_t next;  // of the same place
+    };
+    std::vector<std::uint32_t> newest_;  // by hash
+    std::vector<Entry> entries_;
 };
 
 // Exact in either order.  Min and max are not: of two zeros either may come out.
@@ -57,48 +95,55 @@ bool is_commutative(Op op) {
 
 // The same expression in one spelling.
 Expression canonical(const Module& module, const Instruction& instruction) {
-    Expression expression{instruction.op,       module.type(instruction.result()),
-                          instruction.operands, instruction.bits,
-                          instruction.lanes,    instruction.slot,
-                          instruction.element};
+    Expression expression;
+    expression.op = instruction.op;
+    expression.type = module.type(instruction.result());
+    expression.operand_count = static_cast<std::uint8_t>(instruction.operands.size());
+    std::copy(instruction.operands.begin(), instruction.operands.end(),
+              expression.operands.begin());
+    expression.bits = instruction.bits;
+    expression.lanes = instruction.lanes;
+    expression.slot = instruction.slot;
+    expression.element = instruction.element;
     const bool turned = instruction.op == Op::Greater || instruction.op == Op::GreaterEqual;
     if (instruction.op == Op::Greater) expression.op = Op::Less;
     if (instruction.op == Op::GreaterEqual) expression.op = Op::LessEqual;
     if (turned) std::swap(expression.operands[0], expression.operands[1]);
     if (is_commutative(instruction.op))
-        std::sort(expression.operands.begin(), expression.operands.end());
+        std::sort(expression.operands.begin(),
+                  expression.operands.begin() + expression.operand_count);
     return expression;
 }
 
 class Merger {
   public:
-    explicit Merger(Module& module) : module_(module), substitution_(module) {}
+    explicit Merger(Module& module)
+        : module_(module), substitution_(module), available_(module.values.size()) {}
+
+    bool changed() const { return !substitution_.empty(); }
 
     void visit(Region& region) {
-        std::vector<Expression> added;
-        rebuild(region, [&](Instruction instruction, std::vector<Instruction>& body) {
+        const std::size_t outside = available_.count();
+        rebuild(region, [&](Instruction&& instruction, std::vector<Instruction>& body) {
             substitution_.apply(instruction.operands);
             for (Region& inner : instruction.regions) visit(inner);
             if ((is_arithmetic(instruction.op) || is_sample(instruction.op) ||
                  needs_derivatives(instruction.op)) &&
-                !is_first(instruction, added))
+                !is_first(instruction))
                 return;
             body.push_back(std::move(instruction));
         });
-        for (const Expression& expression : added) available_.erase(expression);
+        available_.forget_from(outside);
     }
 
   private:
-    bool is_first(const Instruction& instruction, std::vector<Expression>& added) {
-        Expression expression = canonical(module_, instruction);
-        const auto [entry, inserted] = available_.emplace(expression, instruction.result());
-        if (inserted) {
-            added.push_back(std::move(expression));
-            return true;
-        }
-        merge_names(instruction, entry->second);
+    bool is_first(const Instruction& instruction) {
+        const ValueId* earlier =
+            available_.find_or_add(canonical(module_, instruction), instruction.result());
+        if (earlier == nullptr) return true;
+        merge_names(instruction, *earlier);
         substitution_.replace(
-            instruction.result(), entry->second,
+            instruction.result(), *earlier,
             is_leaf(instruction.op) ? Substitution::Name::Leave : Substitution::Name::TakeOver);
         return false;
     }
@@ -112,14 +157,15 @@ class Merger {
 
     Module& module_;
     Substitution substitution_;
-    std::unordered_map<Expression, ValueId, ExpressionHash> available_;
+    Available available_;
 };
 
 }  // namespace
 
-void eliminate_common_subexpressions(ir::Module& module) {
-    Merger(module).visit(module.body);
-    compact_values(module);
+bool eliminate_common_subexpressions(ir::Module& module) {
+    Merger merger(module);
+    merger.visit(module.body);
+    return compact_values(module) || merger.changed();
 }
 
 }  // namespace intaglio::passes

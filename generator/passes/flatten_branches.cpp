@@ -14,16 +14,19 @@ class Flattener {
   public:
     Flattener(Module& module, Branches which) : substitution_(module), which_(which) {}
 
+    bool changed() const { return changed_; }
+
     void visit(Region& region) {
-        rebuild(region, [&](Instruction instruction, std::vector<Instruction>& body) {
+        rebuild(region, [&](Instruction&& instruction, std::vector<Instruction>& body) {
             flatten(std::move(instruction), body);
         });
     }
 
   private:
-    void flatten(Instruction instruction, std::vector<Instruction>& body) {
+    void flatten(Instruction&& instruction, std::vector<Instruction>& body) {
         substitution_.apply(instruction.operands);
         if (instruction.op == Op::If && (which_ == Branches::All || loop_depth_ == 0)) {
+            changed_ = true;
             select_results(instruction, body);
             return;
         }
@@ -58,13 +61,16 @@ class Flattener {
     Substitution substitution_;
     Branches which_;
     int loop_depth_ = 0;
+    bool changed_ = false;
 };
 
 }  // namespace
 
-void flatten_branches(ir::Module& module, Branches which) {
-    Flattener(module, which).visit(module.body);
-    compact_values(module);
+bool flatten_branches(ir::Module& module, Branches which) {
+    if (!contains_op(module.body, Op::If)) return compact_values(module);
+    Flattener flattener(module, which);
+    flattener.visit(module.body);
+    return compact_values(module) || flattener.changed();
 }
 
 }  // namespace intaglio::passes

@@ -13,6 +13,7 @@ enum class Branches {
 // Runs both sides of an if and selects its results, inner ifs before outer ones.  Always legal,
 // since a region of an if holds nothing that depends on neighbouring pixels and nothing that traps;
 // texture reads and loops of both sides run. Bit-exact.  Ends with values numbered anew.
-void flatten_branches(ir::Module& module, Branches which = Branches::All);
+// Returns whether it changed anything.
+bool flatten_branches(ir::Module& module, Branches which = Branches::All);
 
 }  // namespace intaglio::passes

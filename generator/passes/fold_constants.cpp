@@ -53,11 +53,11 @@ class Folder {
   public:
     explicit Folder(Module& module) : module_(module), substitution_(module) {}
 
-    // True if another walk may find more.
-    bool run() {
-        visit(module_.body);
-        return again_;
-    }
+    void run() { visit(module_.body); }
+
+    // Another walk may find more.
+    bool again() const { return again_; }
+    bool changed() const { return changed_; }
 
   private:
     using Body = std::vector<Instruction>;
@@ -66,11 +66,11 @@ class Folder {
     void visit(Region& region) {
         const std::size_t known = learned_.size();
         rebuild(region,
-                [&](Instruction instruction, Body& body) { fold(std::move(instruction), body); });
+                [&](Instruction&& instruction, Body& body) { fold(std::move(instruction), body); });
         forget(known);
     }
 
-    void fold(Instruction instruction, Body& body) {
+    void fold(Instruction&& instruction, Body& body) {
         substitution_.apply(instruction.operands);
         switch (instruction.op) {
             case Op::If: return fold_if(std::move(instruction), body);
@@ -84,9 +84,10 @@ class Folder {
 
     // --- structure
 
-    void fold_if(Instruction branch, Body& body) {
+    void fold_if(Instruction&& branch, Body& body) {
         const ValueId condition = branch.operands[0];
         if (const auto truth = truth_of(condition)) {
+            changed_ = true;
             inline_region(branch.regions[*truth ? 0 : 1], branch.results, body);
             return;
         }
@@ -101,6 +102,7 @@ class Folder {
         std::vector<ValueId>& else_values = branch.regions[1].body.back().operands;
         for (std::size_t k = branch.results.size(); k-- > 0;) {
             if (then_values[k] != else_values[k]) continue;
+            changed_ = true;
             replace(branch.results[k], then_values[k]);
             for (auto* values : {&then_values, &else_values, &branch.results})
                 values->erase(values->begin() + static_cast<std::ptrdiff_t>(k));
@@ -108,15 +110,17 @@ class Folder {
         body.push_back(std::move(branch));
     }
 
-    void fold_loop(Instruction loop, Body& body) {
+    void fold_loop(Instruction&& loop, Body& body) {
         Region& region = loop.regions[0];
         const int trips = loop.loop.trip_count;
         if (trips <= 0) {
+            changed_ = true;
             for (std::size_t k = 0; k < loop.results.size(); ++k)
                 replace(loop.results[k], loop.operands[k]);
             return;
         }
         if (trips == 1 && !contains_break(region)) {
+            changed_ = true;
             Instruction index = make_int_constant(module_, 0, loop.origin);
             definitions_.record(index);
             replace(region.parameters[0], index.result());
@@ -140,16 +144,20 @@ class Folder {
                 return instruction.op == Op::BreakIf && truth_of(instruction.operands[0]) == true;
             });
         if (certain == code.end()) return;
+        changed_ = true;
         certain->op = Op::Yield;
         certain->operands.erase(certain->operands.begin());
         code.erase(certain + 1, code.end());
         loop.loop.trip_count = 1;
     }
 
-    void fold_break(Instruction instruction, Body& body) {
+    void fold_break(Instruction&& instruction, Body& body) {
         const ValueId condition = instruction.operands[0];
         const auto truth = truth_of(condition);
-        if (truth == false) return;
+        if (truth == false) {
+            changed_ = true;
+            return;
+        }
         body.push_back(std::move(instruction));
         if (!truth) learn(condition, false);
     }
@@ -199,13 +207,13 @@ class Folder {
 
     // --- one instruction
 
-    void simplify(Instruction instruction, Body& body) {
+    void simplify(Instruction&& instruction, Body& body) {
         const ValueId result = instruction.result();
-        for (bool changed = true; changed;) {
-            if (evaluate(instruction)) break;
-            changed = apply_rules(instruction) ||
-                      simplify_shape(module_, definitions_, instruction) ||
-                      divide_by_power_of_two(instruction, body);
+        while (!evaluate(instruction)) {
+            if (!apply_rules(instruction) && !simplify_shape(module_, definitions_, instruction) &&
+                !divide_by_power_of_two(instruction, body))
+                break;
+            changed_ = true;
             if (instruction.op == Op::Yield) {  // it is its operand
                 replace(result, instruction.operands[0]);
                 return;
@@ -217,18 +225,21 @@ class Folder {
 
     bool evaluate(Instruction& instruction) {
         if (!info(instruction.op).bit_exact || is_leaf(instruction.op)) return false;
+        if (std::any_of(instruction.operands.begin(), instruction.operands.end(),
+                        [&](ValueId operand) { return constant_of(operand) == nullptr; }))
+            return false;
         std::vector<Type> types;
         std::vector<Bits> operands;
         for (ValueId operand : instruction.operands) {
-            const Bits* bits = constant_of(operand);
-            if (bits == nullptr) return false;
             types.push_back(module_.type(operand));
-            operands.push_back(*bits);
+            operands.push_back(*constant_of(operand));
         }
         const auto bits =
             evaluate_op(instruction, types, operands, module_.type(instruction.result()).width);
-        if (bits) become_constant(instruction, *bits);
-        return bits.has_value();
+        if (!bits) return false;
+        become_constant(instruction, *bits);
+        changed_ = true;
+        return true;
     }
 
     static void become_constant(Instruction& instruction, const Bits& bits) {
@@ -346,15 +357,20 @@ class Folder {
     Definitions definitions_;
     std::unordered_map<ValueId, bool> truths_;
     std::vector<ValueId> learned_;  // in order, to forget them at the end of a region
-    bool again_ = false;
+    bool again_ = false, changed_ = false;
 };
 
 }  // namespace
 
-void fold_constants(ir::Module& module) {
-    while (Folder(module).run()) {
+bool fold_constants(ir::Module& module) {
+    bool changed = false;
+    for (bool again = true; again;) {
+        Folder folder(module);
+        folder.run();
+        again = folder.again();
+        changed |= folder.changed();
     }
-    compact_values(module);
+    return compact_values(module) || changed;
 }
 
 }  // namespace intaglio::passes

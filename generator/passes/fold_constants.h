@@ -13,6 +13,7 @@ namespace intaglio::passes {
 //   with a known condition. Inside a region of an if, and after a break_if, its condition is known.
 // Bit-exact, with denormals as in rewrite_rules.h.  Ends with values numbered anew; what became
 // unused stays.
-void fold_constants(ir::Module& module);
+// Returns whether it changed anything.
+bool fold_constants(ir::Module& module);
 
 }  // namespace intaglio::passes

@@ -16,11 +16,13 @@ class Hoister {
   public:
     explicit Hoister(Module& module) : depths_(module.values.size()) {}
 
+    bool changed() const { return changed_; }
+
     // One region at a depth.  `hoisted` collects what leaves the innermost loop (null outside
     // loops); `always`: the first iteration of that loop executes the region.
     void visit(Region& region, int depth, std::vector<Instruction>* hoisted, bool always) {
         for (ValueId parameter : region.parameters) set_depth(parameter, depth);
-        rebuild(region, [&](Instruction instruction, std::vector<Instruction>& body) {
+        rebuild(region, [&](Instruction&& instruction, std::vector<Instruction>& body) {
             if (instruction.op == Op::Loop) {
                 std::vector<Instruction> invariant;
                 visit(instruction.regions[0], depth + 1, &invariant,
@@ -36,10 +38,11 @@ class Hoister {
     }
 
   private:
-    void place(Instruction instruction, int depth, std::vector<Instruction>& body,
+    void place(Instruction&& instruction, int depth, std::vector<Instruction>& body,
                std::vector<Instruction>* hoisted, bool always) {
         const bool moves =
             hoisted != nullptr && may_move(instruction, always) && is_invariant(instruction, depth);
+        changed_ |= moves;
         const int new_depth = moves ? depth - 1 : depth;
         for (ValueId result : instruction.results) set_depth(result, new_depth);
         if (moves)
@@ -93,13 +96,16 @@ class Hoister {
     void set_depth(ValueId value, int depth) { depths_[index_of(value)] = depth; }
 
     std::vector<int> depths_;
+    bool changed_ = false;
 };
 
 }  // namespace
 
-void hoist_loop_invariants(ir::Module& module) {
-    Hoister(module).visit(module.body, 0, nullptr, true);
-    compact_values(module);
+bool hoist_loop_invariants(ir::Module& module) {
+    if (!contains_op(module.body, Op::Loop)) return compact_values(module);
+    Hoister hoister(module);
+    hoister.visit(module.body, 0, nullptr, true);
+    return compact_values(module) || hoister.changed();
 }
 
 }  // namespace intaglio::passes

@@ -9,7 +9,7 @@ namespace intaglio::passes {
 // as possible. Arithmetic moves freely, also out of an if and past a break_if: nothing traps.
 // Texture reads, and ifs and loops as a whole, move only where the first iteration executes them in
 // any case, so that no read and no loop runs that did not run before.  Bit-exact.  Ends with values
-// numbered anew.
-void hoist_loop_invariants(ir::Module& module);
+// numbered anew.  Returns whether it changed anything.
+bool hoist_loop_invariants(ir::Module& module);
 
 }  // namespace intaglio::passes

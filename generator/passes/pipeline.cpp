@@ -1,6 +1,8 @@
-// The list one can read aloud, and its repetition until nothing changes.
+// The list one can read aloud, and its repetition until nothing changes.  A pass that found nothing
+// to do is left out until another one changed the module: the same module gives the same result.
 #include "generator/passes/pipeline.h"
 
+#include <map>
 #include <optional>
 
 #include <fmt/format.h>
@@ -20,7 +22,8 @@ namespace {
 
 using namespace ir;
 
-// Runs passes by name, tells the listener, and stops at the first failure.
+// Runs passes by name, tells the listener, and stops at the first failure.  A pass returns whether
+// it changed the module; one name stands for one pass with the same options.
 class Run {
   public:
     Run(Module& module, const PipelineOptions& options) : module_(module), options_(options) {}
@@ -28,7 +31,12 @@ class Run {
     template <typename Pass>
     void operator()(std::string_view name, Pass&& pass) {
         if (error_) return;
-        pass(module_);
+        const auto idle = idle_at_.find(name);
+        if (idle != idle_at_.end() && idle->second == changes_) return;
+        if (pass(module_))
+            ++changes_;
+        else
+            idle_at_[name] = changes_;
         if (options_.after_each) options_.after_each(name, module_);
         if (options_.verify_each) {
             if (const Status status = verify(module_); !status)
@@ -38,11 +46,14 @@ class Run {
     }
 
     const std::optional<Diagnostic>& error() const { return error_; }
+    int changes() const { return changes_; }
 
   private:
     Module& module_;
     const PipelineOptions& options_;
     std::optional<Diagnostic> error_;
+    int changes_ = 0;                          // how many passes changed the module so far
+    std::map<std::string_view, int> idle_at_;  // after how many changes it last found nothing
 };
 
 void run_once(Run& run, const PipelineOptions& options, std::vector<std::string>& notes) {
@@ -51,14 +62,17 @@ void run_once(Run& run, const PipelineOptions& options, std::vector<std::string>
     run("eliminate_common_subexpressions", eliminate_common_subexpressions);
     run("hoist_loop_invariants", hoist_loop_invariants);
     run("close_inductions", [&](Module& module) {
-        for (std::string& note : close_inductions(module)) notes.push_back(std::move(note));
+        std::vector<std::string> closed = close_inductions(module);
+        std::move(closed.begin(), closed.end(), std::back_inserter(notes));
+        return !closed.empty();
     });
     // Early exits as selects, the form of the papers: branches would nest as deep as the loop is
     // long.
-    run("unroll_loops", [&](Module& module) { unroll_loops(module, loops, EarlyExit::Select); });
+    run("unroll_loops",
+        [&](Module& module) { return unroll_loops(module, loops, EarlyExit::Select); });
     run("fold_constants", fold_constants);
     if (options.flatten_all)
-        run("flatten_branches", [](Module& module) { flatten_branches(module); });
+        run("flatten_branches", [](Module& module) { return flatten_branches(module); });
     run("fold_constants", fold_constants);
     run("eliminate_common_subexpressions", eliminate_common_subexpressions);
     run("remove_dead_code", remove_dead_code);
@@ -72,11 +86,10 @@ Result<std::vector<std::string>> optimize(ir::Module& module, const PipelineOpti
     // Each round needs the one before it to have found something; real modules settle in two or
     // three.
     for (int round = 0; round < 16; ++round) {
-        // The run changes it.  NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
-        const Module before = module;
+        const int before = run.changes();
         run_once(run, options, notes);
         if (run.error()) return *run.error();
-        if (module == before) break;
+        if (run.changes() == before) break;
     }
     return notes;
 }
@@ -88,13 +101,17 @@ Result<std::vector<std::string>> optimize_program(ir::Program& program,
     const auto append = [&](const std::vector<std::string>& more) {
         notes->insert(notes->end(), more.begin(), more.end());
     };
-    append(hoist_to_vertex(program, options.interpolants));
-    remove_unused_interpolants(program);
-    for (Module* stage : {&program.vertex, &program.pixel}) {
-        auto more = optimize(*stage, options);
-        if (!more) return more;
-        append(*more);
-    }
+    const std::vector<std::string> hoisted = hoist_to_vertex(program, options.interpolants);
+    append(hoisted);
+    const bool pixel_changed = remove_unused_interpolants(program) || !hoisted.empty();
+    auto more = optimize(program.vertex, options);
+    if (!more) return more;
+    append(*more);
+    // Unchanged it is as optimizing left it.
+    if (!pixel_changed) return notes;
+    more = optimize(program.pixel, options);
+    if (!more) return more;
+    append(*more);
     return notes;
 }
 

@@ -35,9 +35,11 @@ class Invariants {
   public:
     explicit Invariants(Module& module) : module_(module), substitution_(module) {}
 
-    void run() {
+    // Whether there was one.
+    bool run() {
         visit(module_.body);
         substitute(module_.body, substitution_);
+        return !substitution_.empty();
     }
 
   private:
@@ -81,7 +83,8 @@ class Liveness {
     explicit Liveness(Module& module)
         : module_(module), owners_(module.values.size()), live_(module.values.size()) {}
 
-    void run() {
+    // Whether anything was dead.
+    bool run() {
         find_owners(module_.body);
         mark(module_.body.body.back().operands);
         while (!pending_.empty()) {
@@ -91,6 +94,7 @@ class Liveness {
             if (owner.instruction != nullptr) mark_needs(*owner.instruction, owner.index);
         }
         sweep(module_.body);
+        return swept_;
     }
 
   private:
@@ -143,11 +147,13 @@ class Liveness {
     bool is_live(ValueId value) const { return live_[index_of(value)]; }
 
     void sweep(Region& region) {
-        rebuild(region, [&](Instruction instruction, std::vector<Instruction>& body) {
+        rebuild(region, [&](Instruction&& instruction, std::vector<Instruction>& body) {
             const bool always = is_terminator(instruction.op) || instruction.op == Op::BreakIf;
             if (!always && std::none_of(instruction.results.begin(), instruction.results.end(),
-                                        [&](ValueId result) { return is_live(result); }))
+                                        [&](ValueId result) { return is_live(result); })) {
+                swept_ = true;
                 return;
+            }
             if (has_regions(instruction.op)) sweep_results(instruction);
             for (Region& inner : instruction.regions) sweep(inner);
             body.push_back(std::move(instruction));
@@ -157,6 +163,7 @@ class Liveness {
     void sweep_results(Instruction& instruction) {
         for (std::size_t k = instruction.results.size(); k-- > 0;) {
             if (is_live(instruction.results[k])) continue;
+            swept_ = true;
             if (instruction.op == Op::Loop) {
                 erase_carried(instruction, k);
                 continue;
@@ -170,15 +177,17 @@ class Liveness {
     std::vector<Owner> owners_;
     std::vector<bool> live_;
     std::vector<ValueId> pending_;
+    bool swept_ = false;
 };
 
 }  // namespace
 
-void remove_dead_code(ir::Module& module) {
-    Invariants(module).run();
-    Liveness(module).run();
-    remove_unused_declarations(module);
-    compact_values(module);
+bool remove_dead_code(ir::Module& module) {
+    bool changed = Invariants(module).run();
+    changed |= Liveness(module).run();
+    changed |= remove_unused_declarations(module);
+    changed |= compact_values(module);
+    return changed;
 }
 
 }  // namespace intaglio::passes

@@ -10,7 +10,7 @@ namespace intaglio::passes {
 // to compute themselves.  A carried value that never changes becomes its initial value.
 // Declarations, files and steps that nothing uses any more go too (a function keeps its
 // inputs, uniforms and samplers: they are its signature).  Bit-exact.  Ends with values numbered
-// anew.
-void remove_dead_code(ir::Module& module);
+// anew.  Returns whether it changed anything.
+bool remove_dead_code(ir::Module& module);
 
 }  // namespace intaglio::passes

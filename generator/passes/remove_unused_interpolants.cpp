@@ -10,8 +10,8 @@ namespace intaglio::passes {
 
 using namespace ir;
 
-void remove_unused_interpolants(ir::Program& program) {
-    remove_unused_declarations(program.pixel);
+bool remove_unused_interpolants(ir::Program& program) {
+    const bool changed = remove_unused_declarations(program.pixel);
     const auto is_read = [&](const Declaration& output) {
         const auto& inputs = program.pixel.inputs;
         return output.semantic != Semantic::Interpolant ||
@@ -27,6 +27,7 @@ void remove_unused_interpolants(ir::Program& program) {
         values.erase(values.begin() + static_cast<std::ptrdiff_t>(i));
     }
     remove_dead_code(vertex);
+    return changed;
 }
 
 }  // namespace intaglio::passes

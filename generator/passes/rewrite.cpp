@@ -103,6 +103,14 @@ bool is_arithmetic(Op op) {
            op != Op::BreakIf;
 }
 
+bool contains_op(const Region& region, Op op) {
+    return std::any_of(region.body.begin(), region.body.end(), [&](const Instruction& instruction) {
+        return instruction.op == op ||
+               std::any_of(instruction.regions.begin(), instruction.regions.end(),
+                           [&](const Region& inner) { return contains_op(inner, op); });
+    });
+}
+
 bool reads_textures(const Region& region) {
     bool found = false;
     for_each_instruction(
@@ -153,10 +161,25 @@ std::vector<int> count_uses(const Module& module) {
 
 namespace {
 
+// Whether values are defined in the order of their numbers, from `next` on.
+bool is_numbered(const Region& region, std::uint32_t& next) {
+    const auto is_next = [&](ValueId value) { return index_of(value) == next++; };
+    if (!std::all_of(region.parameters.begin(), region.parameters.end(), is_next)) return false;
+    for (const Instruction& instruction : region.body) {
+        for (const Region& inner : instruction.regions)
+            if (!is_numbered(inner, next)) return false;
+        if (!std::all_of(instruction.results.begin(), instruction.results.end(), is_next))
+            return false;
+    }
+    return true;
+}
+
 // Renumbers in two walks: definitions in builder order, then operands.
 class Numbering {
   public:
-    explicit Numbering(Module& module) : module_(module), numbers_(module.values.size()) {}
+    explicit Numbering(Module& module) : module_(module), numbers_(module.values.size()) {
+        values_.reserve(module.values.size());
+    }
 
     void run() {
         number(module_.body);
@@ -211,9 +234,14 @@ void renumber(int& index, const std::vector<int>& numbers) {
 
 }  // namespace
 
-void compact_values(Module& module) { Numbering(module).run(); }
+bool compact_values(Module& module) {
+    std::uint32_t next = 0;
+    if (is_numbered(module.body, next) && next == module.values.size()) return false;
+    Numbering(module).run();
+    return true;
+}
 
-void remove_unused_declarations(Module& module) {
+bool remove_unused_declarations(Module& module) {
     std::vector<bool> inputs(module.inputs.size()), uniforms(module.uniforms.size());
     std::vector<bool> samplers(module.samplers.size()), files(module.files.size()),
         steps(module.steps.size());
@@ -230,6 +258,10 @@ void remove_unused_declarations(Module& module) {
         mark(files, instruction.origin.file);
         mark(steps, instruction.origin.step);
     });
+    const auto all = [](const std::vector<bool>& marks) {
+        return std::find(marks.begin(), marks.end(), false) == marks.end();
+    };
+    if (all(inputs) && all(uniforms) && all(samplers) && all(files) && all(steps)) return false;
     const std::vector<int> input_numbers = keep_marked(module.inputs, inputs);
     const std::vector<int> uniform_numbers = keep_marked(module.uniforms, uniforms);
     const std::vector<int> sampler_numbers = keep_marked(module.samplers, samplers);
@@ -242,6 +274,7 @@ void remove_unused_declarations(Module& module) {
         renumber(instruction.origin.file, file_numbers);
         renumber(instruction.origin.step, step_numbers);
     });
+    return true;
 }
 
 std::string place_of(const Module& module, const Origin& origin) {

@@ -82,6 +82,8 @@ bool is_arithmetic(ir::Op op);
 // A constant, uniform or input: its value may stand for several quantities, so it takes over no
 // name.
 inline bool is_leaf(ir::Op op) { return ir::info(op).type_rule == ir::TypeRule::Leaf; }
+// True if the region or one inside it has this op.
+bool contains_op(const ir::Region& region, ir::Op op);
 // True if the region or one inside it reads a texture.
 bool reads_textures(const ir::Region& region);
 bool contains_break(const ir::Region& region);
@@ -110,8 +112,8 @@ void for_each_instruction(ir::Region& region, Visit&& visit) {
     }
 }
 
-// Rebuilds a body: visit(instruction, body) appends to the new body what the instruction becomes.
-// Inner regions are the visitor's to rebuild.
+// Rebuilds a body: visit(std::move(instruction), body) appends to the new body what the instruction
+// becomes. Inner regions are the visitor's to rebuild.
 template <typename Visit>
 void rebuild(ir::Region& region, Visit&& visit) {
     std::vector<ir::Instruction> old = std::move(region.body);
@@ -128,13 +130,14 @@ void substitute(ir::Region& region, const Substitution& substitution);
 std::vector<int> count_uses(const ir::Module& module);
 
 // Drops values that nothing defines any more and numbers the others in the order in which a builder
-// defines them: a region's parameters, its body, then the results of its instruction.
-void compact_values(ir::Module& module);
+// defines them: a region's parameters, its body, then the results of its instruction.  Returns
+// whether it changed anything.
+bool compact_values(ir::Module& module);
 
 // Drops inputs, uniforms and samplers that no instruction reads, and files and steps that no
 // instruction comes from; the others keep their order and are numbered anew.  Parameters of a
-// function stay: they are its signature.
-void remove_unused_declarations(ir::Module& module);
+// function stay: they are its signature.  Returns whether it changed anything.
+bool remove_unused_declarations(ir::Module& module);
 
 // "templates/search/steep_parallax.cpp:25", or empty where the origin is unknown.
 std::string place_of(const ir::Module& module, const ir::Origin& origin);

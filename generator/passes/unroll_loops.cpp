@@ -19,17 +19,21 @@ struct Exit {
     std::vector<Instruction> rest;  // EarlyExit::Branch only
 };
 
+bool is_written_out(const Instruction& instruction, Loops which) {
+    return instruction.op == Op::Loop &&
+           (which == Loops::All || instruction.loop.form == LoopForm::Unrolled);
+}
+
 class Unroller {
   public:
     Unroller(Module& module, Loops which, EarlyExit early_exit)
         : module_(module), substitution_(module), which_(which), early_exit_(early_exit) {}
 
     void visit(Region& region) {
-        rebuild(region, [&](Instruction instruction, std::vector<Instruction>& body) {
+        rebuild(region, [&](Instruction&& instruction, std::vector<Instruction>& body) {
             substitution_.apply(instruction.operands);
             for (Region& inner : instruction.regions) visit(inner);
-            if (instruction.op == Op::Loop &&
-                (which_ == Loops::All || instruction.loop.form == LoopForm::Unrolled))
+            if (is_written_out(instruction, which_))
                 expand(instruction, body);
             else
                 body.push_back(std::move(instruction));
@@ -128,9 +132,13 @@ class Unroller {
 
 }  // namespace
 
-void unroll_loops(ir::Module& module, Loops which, EarlyExit early_exit) {
-    Unroller(module, which, early_exit).visit(module.body);
-    compact_values(module);
+bool unroll_loops(ir::Module& module, Loops which, EarlyExit early_exit) {
+    bool any = false;
+    for_each_instruction(module.body, [&](const Instruction& instruction) {
+        any |= is_written_out(instruction, which);
+    });
+    if (any) Unroller(module, which, early_exit).visit(module.body);
+    return compact_values(module) || any;
 }
 
 }  // namespace intaglio::passes

@@ -19,8 +19,8 @@ enum class EarlyExit {
 
 // Writes a loop's body out, once for each iteration, with the index as a constant.  The loop's name
 // is gone with it. Bit-exact; with EarlyExit::Select texture reads after an early exit run too.
-// Ends with values numbered anew.
-void unroll_loops(ir::Module& module, Loops which = Loops::AsScheduled,
+// Ends with values numbered anew.  Returns whether it changed anything.
+bool unroll_loops(ir::Module& module, Loops which = Loops::AsScheduled,
                   EarlyExit early_exit = EarlyExit::Branch);
 
 }  // namespace intaglio::passes

@@ -274,6 +274,63 @@ TEST(CloseInductions, KeepsWhatIntLoopsCompute) {
     EXPECT_GT(closed, 500u) << "hardly any loop had an induction: the test shows little";
 }
 
+struct Reporting {
+    const char* name;
+    std::function<bool(Module&)> run;
+};
+
+// The pipeline's list for targets that have neither loops nor branches.
+const std::vector<Reporting>& flat_round() {
+    static const std::vector<Reporting> round = {
+        {"fold_constants", fold_constants},
+        {"eliminate_common_subexpressions", eliminate_common_subexpressions},
+        {"hoist_loop_invariants", hoist_loop_invariants},
+        {"close_inductions", [](Module& module) { return !close_inductions(module).empty(); }},
+        {"unroll_loops",
+         [](Module& module) { return unroll_loops(module, Loops::All, EarlyExit::Select); }},
+        {"fold_constants", fold_constants},
+        {"flatten_branches", [](Module& module) { return flatten_branches(module); }},
+        {"fold_constants", fold_constants},
+        {"eliminate_common_subexpressions", eliminate_common_subexpressions},
+        {"remove_dead_code", remove_dead_code}};
+    return round;
+}
+
+// What a pass reports decides whether it is run again: a change that it does not report is lost,
+// one that it reports without making it costs time.
+TEST(Reports, SayWhetherAPassChangedTheModule) {
+    int changed = 0, idle = 0;
+    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+        Module module = random_case(seed);
+        compact_values(module);
+        for (int round = 0; round < 3; ++round)
+            for (const Reporting& pass : flat_round()) {
+                const Module before = module;
+                const bool reported = pass.run(module);
+                ASSERT_EQ(reported, module != before)
+                    << pass.name << ", seed " << seed << ", round " << round << "\n"
+                    << ir::print(before) << ir::print(module);
+                ++(reported ? changed : idle);
+            }
+    }
+    EXPECT_GT(changed, 500);
+    EXPECT_GT(idle, 500);
+}
+
+TEST(Pipeline, IsItsListRepeatedUntilNothingChanges) {
+    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+        const Module start = random_case(seed);
+        Module optimized = start, plain = start;
+        optimize_or_fail(optimized, {.unroll_all = true, .flatten_all = true});
+        for (Module before; plain != before;) {
+            before = plain;
+            for (const Reporting& pass : flat_round()) pass.run(plain);
+        }
+        ASSERT_TRUE(optimized == plain) << "seed " << seed << "\n"
+                                        << ir::print(optimized) << ir::print(plain);
+    }
+}
+
 TEST(CompactValues, NumbersInBuilderOrder) {
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         ir::testing::RandomModuleOptions options;
