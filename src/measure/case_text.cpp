@@ -9,6 +9,7 @@
 #include "generator/ir/print.h"
 #include "src/measure/command.h"
 #include "src/measure/hash.h"
+#include "src/measure/hits_request.h"
 #include "src/measure/variant_json.h"
 
 namespace intaglio::measure {
@@ -138,9 +139,7 @@ Json inputs_of(const Case& what, const CaseMap& map, const MeasuredOn& on) {
 
 Result<std::string> recorded_hash(const dsl::Catalogue& catalogue, const VariantRequest& request) {
     Hash hash;
-    VariantRequest displaced = request;
-    displaced.surface = dsl::with_part(request.surface, "output", "displaced");
-    for (const VariantRequest& each : {request, displaced}) {
+    for (const VariantRequest& each : {request, hits_request(catalogue, request)}) {
         Result<Recorded> recorded = record_variant(catalogue, each);
         if (!recorded) {
             if (recorded.error().code == "target-limit") return std::string();

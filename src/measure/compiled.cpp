@@ -2,6 +2,7 @@
 #include "src/measure/compiled.h"
 
 #include "src/check/spirv.h"
+#include "src/measure/hits_request.h"
 
 namespace intaglio::measure {
 
@@ -9,16 +10,8 @@ Result<CompiledRow> compile_row(const dsl::Catalogue& catalogue, const VariantRe
     Result<Variant> shaded = make_variant(catalogue, request);
     if (!shaded) return shaded.error();
     const bool is_bytecode = profile_of(*shaded->target).has_value();
-    VariantRequest instrumented = request;
-    instrumented.surface = dsl::with_part(request.surface, "output", "displaced");
+    VariantRequest instrumented = hits_request(catalogue, request);
     instrumented.count_reads = !is_bytecode;
-    instrumented.known = {};
-    if (!request.known.empty()) {
-        // What the shader that writes the hit has names for.
-        const Result<Recorded> recorded = record_variant(catalogue, instrumented);
-        if (!recorded) return recorded.error();
-        instrumented.known = passes::part_of(request.known, recorded->program);
-    }
     Result<Variant> displaced = make_variant(catalogue, instrumented);
     if (!displaced) return displaced.error();
     CompiledRow row{std::move(*shaded), std::move(*displaced), is_bytecode, {}, {}, {}, {}, {}};

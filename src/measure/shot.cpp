@@ -1,6 +1,7 @@
 // Shots.
 #include "src/measure/shot.h"
 
+#include "src/measure/hits_request.h"
 #include "src/measure/split.h"
 
 namespace intaglio::measure {
@@ -18,8 +19,8 @@ Result<std::vector<HitError>> shot_errors(const vulkan::Device& device,
                                           const dsl::Catalogue& catalogue, VariantRequest request,
                                           const MapSet& set, const Textures& textures,
                                           const Shot& shot) {
-    request.surface = dsl::with_part(request.surface, "output", "displaced");
-    const Result<vulkan::Picture> displaced = draw_shot(device, catalogue, request, textures, shot);
+    const Result<vulkan::Picture> displaced =
+        draw_shot(device, catalogue, hits_request(catalogue, std::move(request)), textures, shot);
     if (!displaced) return displaced.error();
     const reference::HeightField field = set.height_field(reference::FilterWeights::Exact);
     const float scale = static_cast<float>(shot.scale);

@@ -71,7 +71,6 @@ class Chooser {
     const Pair* dearer_below(const Pair& pair) const;
     double foreseen(const Pair& pair) const;
     const Pair* refused_below(const Pair& pair) const;
-    std::string over_budget(const std::map<std::string, double>& costs) const;
 
     const SurfaceWork& work_;
     const Target& target_;
@@ -172,16 +171,6 @@ Status Chooser::pair_up(bool right, bool others) {
         if (error) return *error;
     std::stable_sort(pairs_.begin() + static_cast<std::ptrdiff_t>(before), pairs_.end(), better);
     return Done{};
-}
-
-std::string Chooser::over_budget(const std::map<std::string, double>& costs) const {
-    for (const auto& [metric, limit] : budget_) {
-        const auto found = costs.find(metric);
-        if (found == costs.end()) return fmt::format("{} is unknown", metric);
-        if (found->second > limit)
-            return fmt::format("{} is {:.4g}, of at most {:.4g}", metric, found->second, limit);
-    }
-    return {};
 }
 
 // The same setting that was refused, or one with less to do.
@@ -286,7 +275,7 @@ Status Chooser::measure(Pair& pair) {
     if (pair.wrong > 1) {
         candidate.fate = Fate::Wrong;
         candidate.why = why_wrong(tolerance_, *trial, false);
-    } else if (const std::string over = over_budget(candidate.costs); !over.empty()) {
+    } else if (const std::string over = over_budget(budget_, candidate.costs); !over.empty()) {
         candidate.fate = Fate::OverBudget;
         candidate.why = over;
     }
@@ -395,25 +384,39 @@ Status Chooser::try_schedules() {
     return judge_batch(some);
 }
 
-// Nothing is right and fits: the most accurate that fits.
+// Nothing is right and fits: the most accurate that fits.  Where one had too many slots, what is as
+// long is not tried, which leads to what is short enough in few steps.
 Status Chooser::find_nearest() {
+    double too_long = INFINITY;  // operations, written out
+    const auto look_at = [&](const Pair& pair) {
+        if (straight() && pair.candidate.judged && pair.candidate.fate == Fate::Refused &&
+            pair.candidate.why.find(" slots") != std::string::npos)
+            too_long = std::min(too_long, pair.size.operations);
+    };
     std::vector<Pair*> by_wrong;
-    for (Pair& pair : pairs_) by_wrong.push_back(&pair);
-    std::stable_sort(by_wrong.begin(), by_wrong.end(),
-                     [](const Pair* a, const Pair* b) { return a->wrong < b->wrong; });
+    for (Pair& pair : pairs_) {
+        by_wrong.push_back(&pair);
+        look_at(pair);
+    }
+    std::stable_sort(by_wrong.begin(), by_wrong.end(), [](const Pair* a, const Pair* b) {
+        return std::tie(a->wrong, a->predicted) < std::tie(b->wrong, b->predicted);
+    });
     std::size_t tried = 0;
     for (Pair* pair : by_wrong) {
-        if (pair->candidate.judged || refused_below(*pair) != nullptr) continue;
-        if (!far_too_long(*pair).empty()) continue;
+        if (pair->candidate.judged || pair->size.operations >= too_long ||
+            refused_below(*pair) != nullptr || !far_too_long(*pair).empty())
+            continue;
         if (++tried > most_fits) break;
         if (Status status = judge(*pair); !status) return status;
         if (pair->candidate.fate == Fate::Refused) {
             refused_.push_back(pair);
+            look_at(*pair);
             continue;
         }
         if (!pair->measured)
             if (Status status = measure(*pair); !status) return status;
-        if (pair->candidate.fate == Fate::Wrong && over_budget(pair->candidate.costs).empty())
+        if (pair->candidate.fate == Fate::Wrong &&
+            over_budget(budget_, pair->candidate.costs).empty())
             return Done{};
     }
     return Done{};
@@ -442,7 +445,7 @@ Result<Choice> Chooser::run() {
         Candidate& candidate = pair.candidate;
         const std::size_t index = choice.candidates.size();
         const bool right = pair.wrong <= 1;
-        if (candidate.errors.empty()) candidate.errors = pair.search->trial->errors;
+        if (candidate.errors.empty()) candidate.errors = foreseen_errors(*pair.search, pair.shadow);
         if (!candidate.judged && candidate.fate == Fate::NotTried) {
             if (!right) candidate.fate = Fate::Wrong;
             if (candidate.why.empty())
@@ -462,7 +465,7 @@ Result<Choice> Chooser::run() {
         }
         const bool fits = candidate.judged && candidate.fate != Fate::Refused &&
                           candidate.fate != Fate::OverBudget &&
-                          over_budget(candidate.costs).empty();
+                          over_budget(budget_, candidate.costs).empty();
         if (fits && pair.wrong < least_wrong) {
             least_wrong = pair.wrong;
             choice.best_that_fits = index;

@@ -5,6 +5,26 @@
 
 namespace intaglio::plan {
 
+std::string over_budget(const scene::Budget& budget, const std::map<std::string, double>& costs) {
+    for (const auto& [metric, limit] : budget) {
+        const auto found = costs.find(metric);
+        if (found == costs.end()) return fmt::format("{} is unknown", metric);
+        if (found->second > limit)
+            return fmt::format("{} is {:.4g}, of at most {:.4g}", metric, found->second, limit);
+    }
+    return {};
+}
+
+std::map<std::string, double> foreseen_errors(const Tried& search, const Tried* shadow) {
+    std::map<std::string, double> errors = search.trial->errors;
+    if (!shadow) return errors;
+    errors.erase("shadow_wrong");
+    if (const auto own = shadow->trial->errors.find("shadow_wrong");
+        own != shadow->trial->errors.end())
+        errors.insert(*own);
+    return errors;
+}
+
 // Rungs that never came to a pair of their own.
 void add_losers_of_ladders(const SurfaceWork& work, const scene::Tolerance& tolerance,
                            const std::set<const Tried*>& paired, Choice& choice) {

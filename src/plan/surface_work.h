@@ -96,6 +96,13 @@ double wrongness(const scene::Tolerance& tolerance, const Trial& trial, bool hit
 // "p95 is 3.2 texels, of at most 1", of the metric that is the most over.
 std::string why_wrong(const scene::Tolerance& tolerance, const Trial& trial, bool hits_alone);
 
+// Which cost is over its limit, and by how much; empty: none is.
+std::string over_budget(const scene::Budget& budget, const std::map<std::string, double>& costs);
+
+// Of a pair that was not measured: the search's hits, and the shadow's visibility on those of
+// another search.  `shadow` null: none.
+std::map<std::string, double> foreseen_errors(const Tried& search, const Tried* shadow);
+
 // Rungs that never came to a pair of their own, behind the candidates.
 void add_losers_of_ladders(const SurfaceWork& work, const scene::Tolerance& tolerance,
                            const std::set<const Tried*>& paired, Choice& choice);

@@ -11,6 +11,7 @@
 #include "generator/passes/pipeline.h"
 #include "src/check/spirv.h"
 #include "src/measure/evaluated.h"
+#include "src/measure/hits_request.h"
 #include "src/measure/interpreted.h"
 
 namespace intaglio::plan {
@@ -18,19 +19,9 @@ namespace {
 
 using measure::EvaluatedPicture;
 using measure::EvaluatedQuad;
+using measure::hits_request;
 using measure::InterpretedPicture;
 using measure::InterpretedQuad;
-
-// What is known of a shading is unknown to it.
-VariantRequest displaced(const dsl::Catalogue& catalogue, VariantRequest request) {
-    request.surface = dsl::with_part(request.surface, "output", "displaced");
-    if (request.known.empty()) return request;
-    const passes::Known known = std::move(request.known);
-    request.known = {};
-    const Result<Recorded> recorded = record_variant(catalogue, request);
-    if (recorded) request.known = passes::part_of(known, recorded->program);
-    return request;
-}
 
 void worst(std::map<std::string, double>& into, const std::string& metric, double value) {
     const auto [place, is_new] = into.try_emplace(metric, value);
@@ -157,7 +148,7 @@ std::string Site::identity() const {
 
 Result<Trial> Site::State::errors_of_bytecode(const VariantRequest& request,
                                               const Rays& rays) const {
-    const Result<Variant> variant = make_variant(catalogue, displaced(catalogue, request));
+    const Result<Variant> variant = make_variant(catalogue, hits_request(catalogue, request));
     if (!variant) return refused(variant.error());
     const Result<InterpretedQuad> quad =
         InterpretedQuad::prepare(*variant, textures, surface.scale, rays.size, rays.size, look);
@@ -187,7 +178,7 @@ Result<Trial> Site::State::errors_of_bytecode(const VariantRequest& request,
 }
 
 Result<Trial> Site::State::errors_of_ir(const VariantRequest& request, const Rays& rays) const {
-    Result<Recorded> recorded = record_variant(catalogue, displaced(catalogue, request));
+    Result<Recorded> recorded = record_variant(catalogue, hits_request(catalogue, request));
     if (!recorded) return refused(recorded.error());
     const Variant variant{request, recorded->target, std::move(recorded->program), {}, {}};
     const Result<EvaluatedQuad> quad =
@@ -288,7 +279,7 @@ Result<Trial> Site::run(const VariantRequest& request, const Rays& rays, Ask ask
 
 double Site::baked_texels(const VariantRequest& request) const {
     const Result<Recorded> recorded =
-        record_variant(state_->catalogue, displaced(state_->catalogue, request));
+        record_variant(state_->catalogue, hits_request(state_->catalogue, request));
     if (!recorded) return 0;
     double most = 0;
     for (const ir::Sampler& sampler : recorded->program.pixel.samplers) {

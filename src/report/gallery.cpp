@@ -8,6 +8,7 @@
 
 #include "src/maps/png.h"
 #include "src/measure/hits.h"
+#include "src/measure/hits_request.h"
 #include "src/measure/render.h"
 #include "src/measure/shot.h"
 #include "src/measure/variant_json.h"
@@ -100,8 +101,7 @@ class Painter {
 
     // `error`, `reads`, `reads_step` and `reads_max` of an entry.
     Status add_maps(const VariantRequest& request, Json& entry) const {
-        VariantRequest instrumented = request;
-        instrumented.surface = dsl::with_part(request.surface, "output", "displaced");
+        VariantRequest instrumented = measure::hits_request(catalogue_, request);
         instrumented.count_reads = true;
         const Result<Variant> variant = make_variant(catalogue_, instrumented);
         if (!variant) return variant.error();

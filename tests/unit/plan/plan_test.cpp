@@ -138,6 +138,37 @@ TEST(Plan, NamesTheNearestTwoWhereNothingFits) {
     EXPECT_THAT(people, HasSubstr("the cheapest that is right: " + right.text));
 }
 
+// A surface that wants shadows which ps_2_0 has no room for: what is named still fits there.
+TEST(Plan, NamesWhatFitsBesideManyThatDoNot) {
+    scene::Scene scene = small_scene({"ps_2_0"});
+    scene::SceneSurface& surface = scene.surfaces[0];
+    surface.elevation = {12, 90};
+    surface.lights = {light("sun", 25)};
+    surface.features = {scene::Feature::Shadow};
+    surface.tolerance = {{"p95", 0.05}, {"missed", 0.1}, {"shadow_wrong", 0.5}};
+    const Plan plan = planned(scene);
+    const Choice& choice = plan.choices.at(0);
+    ASSERT_FALSE(choice.chosen);
+    ASSERT_TRUE(choice.best_that_fits);
+    EXPECT_LE(choice.candidates[*choice.best_that_fits].costs.at("arithmetic"), 64);
+    // What is foreseen of the other says how wrong its shadow is, not that of its search alone.
+    ASSERT_TRUE(choice.cheapest_right);
+    EXPECT_LE(choice.candidates[*choice.cheapest_right].errors.at("shadow_wrong"), 0.5 * 1.25);
+}
+
+// Where a ray hits is as wrong whether the pixel is shown or not.
+TEST(Plan, WhatIsCutOffIsNoError) {
+    scene::Scene scene = small_scene({"ps_2_b", "glsl_450"});
+    const Plan whole = planned(scene);
+    scene.surfaces[0].features = {scene::Feature::Silhouette};
+    const Plan cut = planned(scene);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(chosen_of(cut, i).text, chosen_of(whole, i).text);
+        EXPECT_EQ(chosen_of(cut, i).errors, chosen_of(whole, i).errors);
+        EXPECT_GT(chosen_of(cut, i).cost, chosen_of(whole, i).cost);
+    }
+}
+
 TEST(Plan, IsTheSameOnAnyNumberOfThreads) {
     scene::Scene scene = small_scene({"glsl_450", "ps_2_b"});
     scene.surfaces[0].lights = {light("sun", 6)};
