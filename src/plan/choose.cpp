@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "generator/target/d3d9/limits.h"
 #include "src/measure/named_metric.h"
 #include "src/plan/finish.h"
 #include "src/plan/parallel.h"
@@ -27,10 +26,10 @@ constexpr std::size_t batch = 4;  // judged at once, whatever the number of work
 constexpr double shadow_slack = 1.25;
 // Schedules change costs by less than this.
 constexpr double near = 1.25;
-constexpr int most_written_out = 20000;  // operations of a language without loops
 // A text longer than this is not offered where the language has loops.
 constexpr int most_unrolled = 1000;
 constexpr std::size_t most_fits = 60;  // tried in search of the best that fits
+constexpr const char* per_vertex_text = ", per vertex";
 
 struct Pair {
     const Tried* search;
@@ -67,7 +66,9 @@ class Chooser {
         return work_.request(std::string(target_.name), pair.search->rung,
                              pair.shadow ? &pair.shadow->rung : nullptr, schedule);
     }
-    std::string far_too_long(const Pair& pair) const;
+    std::string far_too_long(const Pair& pair) const {
+        return straight() ? why_too_long(target_, pair.size) : std::string();
+    }
     const Pair* dearer_below(const Pair& pair) const;
     double foreseen(const Pair& pair) const;
     const Pair* refused_below(const Pair& pair) const;
@@ -203,29 +204,6 @@ double Chooser::foreseen(const Pair& pair) const {
     return pair.predicted * (least == 0 ? least_ratio_ * surprise : least * kin_surprise);
 }
 
-// What need not be written out to know that it does not fit.
-std::string Chooser::far_too_long(const Pair& pair) const {
-    if (!straight()) return {};
-    // Four lanes of a multiplication and an addition.
-    constexpr int most_in_a_slot = 8;
-    int reads = target_.capabilities.texture_reads, arithmetic = 0;
-    if (bytecode()) {
-        const d3d9::Limits& limits = d3d9::limits_of(*profile_of(target_));
-        reads = limits.texture_slots;
-        arithmetic = limits.arithmetic_slots;
-    }
-    if (reads > 0 && pair.size.reads > reads)
-        return fmt::format("{:.0f} texture reads written out, of at most {}", pair.size.reads,
-                           reads);
-    const double slots = pair.size.operations / most_in_a_slot;
-    if (arithmetic > 0 && slots > arithmetic)
-        return fmt::format("at least {:.0f} arithmetic slots, of at most {}", slots, arithmetic);
-    if (arithmetic == 0 && pair.size.operations > most_written_out)
-        return fmt::format("{:.0f} operations written out, of at most {} that are offered",
-                           pair.size.operations, most_written_out);
-    return {};
-}
-
 // Whether the target has it, and what it costs there.
 Status Chooser::judge(Pair& pair) {
     Candidate& candidate = pair.candidate;
@@ -235,9 +213,20 @@ Status Chooser::judge(Pair& pair) {
         candidate.judged = true;
         return Done{};
     }
-    const Result<Trial> price = work_.price(candidate.request);
+    Result<Trial> price = work_.price(candidate.request);
     if (!price) return price.error();
     candidate.judged = true;
+    // What is too long for a pixel stage may fit when the vertex stage does its part.
+    if (straight() && !price->refusal.empty() && !candidate.request.per_vertex) {
+        const VariantRequest lighter = request(pair, {false, true});
+        Result<Trial> other = work_.price(lighter);
+        if (!other) return other.error();
+        if (other->refusal.empty()) {
+            candidate.request = lighter;
+            candidate.text += per_vertex_text;
+            price = std::move(other);
+        }
+    }
     if (!price->refusal.empty()) {
         candidate.fate = Fate::Refused;
         candidate.why = price->refusal;
@@ -355,6 +344,7 @@ Status Chooser::try_schedules() {
     std::vector<std::string> seen = {work_.optimized(best_->candidate.request)};
     for (const Pair& pair : pairs_) {
         if (pair.candidate.fate != Fate::Dearer || !pair.candidate.judged) continue;
+        if (pair.candidate.request.per_vertex) continue;  // it fits no other way
         if (pair.candidate.cost > near * best_->candidate.cost && !work_.options.exhaustive)
             continue;
         const Result<Trial> size =
@@ -369,8 +359,9 @@ Status Chooser::try_schedules() {
             const std::string made = work_.optimized(other.candidate.request);
             if (std::find(seen.begin(), seen.end(), made) != seen.end()) continue;
             seen.push_back(made);
+            other.candidate.text = text_of(pair);
             other.candidate.text += schedule.unrolled ? ", unrolled" : "";
-            other.candidate.text += schedule.per_vertex ? ", per vertex" : "";
+            other.candidate.text += schedule.per_vertex ? per_vertex_text : "";
             more.push_back(std::move(other));
         }
     }

@@ -103,6 +103,9 @@ std::string over_budget(const scene::Budget& budget, const std::map<std::string,
 // another search.  `shadow` null: none.
 std::map<std::string, double> foreseen_errors(const Tried& search, const Tried* shadow);
 
+// Of a target without loops: why what Ask::Size counted cannot fit; empty where it may.
+std::string why_too_long(const Target& target, const Trial& written_out);
+
 // Rungs that never came to a pair of their own, behind the candidates.
 void add_losers_of_ladders(const SurfaceWork& work, const scene::Tolerance& tolerance,
                            const std::set<const Tried*>& paired, Choice& choice);

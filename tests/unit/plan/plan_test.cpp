@@ -169,6 +169,23 @@ TEST(Plan, WhatIsCutOffIsNoError) {
     }
 }
 
+// Where the pixel stage alone is too long, the vertex stage does its part.
+TEST(Plan, MovesWorkToTheVertexStageWhereNothingFitsWithout) {
+    scene::Scene scene = small_scene({"ps_2_0"});
+    scene.surfaces[0].parts["search"] = "parallax_occlusion";
+    scene.surfaces[0].lights = {light("sun", 50)};
+    scene.surfaces[0].knobs = {{"taps", "28"}};
+    scene.surfaces[0].tolerance = {{"p95", 100}};
+    const Candidate chosen = chosen_of(planned(scene));
+    EXPECT_TRUE(chosen.request.per_vertex);
+    EXPECT_THAT(chosen.text, testing::EndsWith(", per vertex"));
+    VariantRequest alone = chosen.request;
+    alone.per_vertex = false;
+    const auto refused = make_variant(small_catalogue(), alone);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().code, "d3d9-limit");
+}
+
 TEST(Plan, IsTheSameOnAnyNumberOfThreads) {
     scene::Scene scene = small_scene({"glsl_450", "ps_2_b"});
     scene.surfaces[0].lights = {light("sun", 6)};
