@@ -18,7 +18,7 @@ namespace {
 
 struct SavingsCommand {
     std::string scene, output = "-", markdown;
-    int size = 128, rounds = 15;
+    int size = 127, rounds = 15;
 };
 
 Status savings_command(const dsl::Catalogue& catalogue, const SavingsCommand& command) {
@@ -52,7 +52,7 @@ void add_savings(CLI::App& app, const dsl::Catalogue& catalogue, std::function<S
                         "The table, in Markdown; stdout if not given");
     command->add_option("--markdown", options->markdown,
                         "A document whose block 'savings NAME' is written anew");
-    command->add_option("--size", options->size, "Pixels a side, a power of two")
+    command->add_option("--size", options->size, "Pixels a side")
         ->check(CLI::Range(8, 2048));
     command->add_option("--rounds", options->rounds, "Of timing; 0: no times")
         ->check(CLI::Range(0, 1000));

@@ -28,7 +28,8 @@ struct Case {
     VariantRequest request;
     Direction view, light;
     double scale = 0.08;  // depth of the relief in texture units
-    int size = 128;  // pixels a side; a power of two, so that coordinates are exact on lavapipe
+    // Pixels a side.  With a power of two coordinates are exact on lavapipe, else within an ULP.
+    int size = 128;
     Filtering filtering = Filtering::Float;
     Arithmetic arithmetic = Arithmetic::Fp32;
     int split_size = 31;  // rays a side whose error is split by source; 0: it is not.  A prime, so

@@ -22,7 +22,7 @@ struct Shot {
 struct Rays {
     std::vector<measure::Direction> views;
     std::vector<Shot> shots;  // every view and every light at its lowest and highest, in few draws
-    int size = 64;            // pixels a side
+    int size = 61;            // pixels a side
 };
 
 // Whether a light is above the polygon at all, some of the time.

@@ -30,7 +30,7 @@ struct Saving {
 };
 
 struct SavingOptions {
-    int size = 128;   // pixels a side
+    int size = 127;   // pixels a side, a prime as in scenes
     int rounds = 15;  // of interleaved timing; 0: no times
     std::function<void(const std::string& what, int done, int all)> progress = {};
 };

@@ -268,9 +268,6 @@ void read_head(Reader& reader, const Value& document, Scene& scene) {
         reader.refuse(name ? name->value.position : Position{1, 1}, "scene-name",
                       name ? wrong : wrong + "; give the scene a name");
     scene.size = static_cast<int>(reader.whole(document, "size", scene.size, {8, 2048}));
-    if ((scene.size & (scene.size - 1)) != 0)
-        reader.refuse(document.find("size")->value.position, "scene-range",
-                      fmt::format("size is {}, and must be a power of two", scene.size));
     scene.read_weight = reader.number(document, "read_weight", scene.read_weight, {0, 1000});
 }
 

@@ -3,7 +3,7 @@
 //
 //     name = "harbour"                      # an identifier; where missing, the file's
 //     targets = ["ps_2_0", "glsl_450"]      # of every surface that names none of its own
-//     size = 64                             # pixels a side of the pictures that are measured
+//     size = 61                             # pixels a side of the pictures that are measured
 //     read_weight = 4                       # operations that a texture read counts as
 //     [view]                                # from where: ranges, or one number each ...
 //     elevation = [15, 90]                  # degrees above the surface's polygon, in (0, 90]
@@ -123,7 +123,10 @@ struct Scene {
     std::filesystem::path file;
     std::vector<SceneSurface> surfaces;
     std::vector<std::filesystem::path> inputs;  // every file that was read, the scene first
-    int size = 64;                              // pixels a side of the pictures that are measured
+    // Pixels a side of the pictures that are measured.  A prime, so that rays fall on every part of
+    // a texel: of maps, sizes of which are powers of two, a grid of 64 sees one corner of each
+    // eighth texel.
+    int size = 61;
     double read_weight = 4;  // operations that one texture read counts as, in the cost of a plan
 };
 

@@ -119,7 +119,7 @@ scene::Scene one_wall() {
     wall.uniforms["scale"] = {static_cast<float>(wall.scale)};
     scene::Scene scene;
     scene.name = "yard";
-    scene.size = 16;
+    scene.size = 17;
     scene.surfaces.push_back(std::move(wall));
     return scene;
 }

@@ -41,7 +41,7 @@ SceneSurface surface_of(const std::string& text) {
 TEST(SceneOfSurfaces, WhatIsNotSaidHasItsDefault) {
     const Scene scene = scene_of("targets = 'glsl_450'\n" + tolerance + wall);
     EXPECT_EQ(scene.name, "scene");
-    EXPECT_EQ(scene.size, 64);
+    EXPECT_EQ(scene.size, 61);
     EXPECT_EQ(scene.read_weight, 4);
     EXPECT_THAT(scene.inputs, ElementsAre(scene.file));
     ASSERT_EQ(scene.surfaces.size(), 1u);
@@ -227,7 +227,7 @@ const Mistake mistakes[] = {
     {"UnknownKey", in_head("target = 'x'"), "did you mean 'targets'?", "scene-unknown-key", 3, 1},
     {"NameIsNoIdentifier", "name = 'har bour'\n", "'har bour' must be letters", "scene-name", 1, 8},
     {"NameIsAWord", "name = 'class'\n", "a word of C++", "scene-name", 1, 8},
-    {"SizeNoPower", in_head("size = 65"), "power of two", "scene-range", 3, 8},
+    {"SizeTooSmall", in_head("size = 7"), "from 8 to 2048", "scene-range", 3, 8},
     {"ReadWeight", in_head("read_weight = -1"), "from 0 to 1000", "scene-range", 3, 15},
     {"UnknownTarget", "targets = ['ps_2_0', 'ps_2_x']\n", "unknown target 'ps_2_x'; did you mean",
      "unknown-target", 1, 22},
