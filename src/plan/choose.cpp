@@ -437,6 +437,8 @@ Result<Choice> Chooser::run() {
         const std::size_t index = choice.candidates.size();
         const bool right = pair.wrong <= 1;
         if (candidate.errors.empty()) candidate.errors = foreseen_errors(*pair.search, pair.shadow);
+        // Of a light that has no shadow here it says nothing.
+        if (!work_.wants_shadow()) candidate.errors.erase("shadow_wrong");
         if (!candidate.judged && candidate.fate == Fate::NotTried) {
             if (!right) candidate.fate = Fate::Wrong;
             if (candidate.why.empty())

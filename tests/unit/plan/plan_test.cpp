@@ -241,6 +241,8 @@ TEST(Plan, ShadowsOnlyWhereALightCanCastThem) {
     EXPECT_TRUE(has_dropped(noon.choices[0], "shadow of noon"));
     EXPECT_EQ(chosen_of(noon).text.find("shadow"), std::string::npos);
     EXPECT_EQ(text_of(noon).find("float visibility"), std::string::npos);
+    EXPECT_FALSE(chosen_of(noon).errors.contains("shadow_wrong"));
+    EXPECT_TRUE(chosen_of(shadowed).errors.contains("shadow_wrong"));
 }
 
 TEST(Plan, RefusesUnknownNames) {
