@@ -15,6 +15,8 @@ namespace {
 // Above the cheapest right one by so much a ladder is not climbed on: whatever the target, its
 // slots and operations never turn a ratio like this around.
 constexpr double hopeless = 4;
+// Texels: hits so near to the exact ones leave shadows their own errors.
+constexpr double sharp = 0.25;
 // More texels of baked maps than this for each of the height map's are not offered unless pinned:
 // a volume of a 256 x 256 map over this has more than 2.6 million.
 constexpr double most_baked_texels = 40;
@@ -23,18 +25,13 @@ bool of_narrow(const std::string& metric) {
     return metric.ends_with("_fp24") || metric.ends_with("_fp16");
 }
 
-// Tries what is left of one level.
-template <typename Request>
+// Tries what is left of one level.  `attempt` fills a rung's trial, and whether it is right.
+template <typename Attempt>
 Status try_level(SurfaceWork& work, std::vector<Tried>& all, const std::vector<std::size_t>& which,
-                 const Rays& rays, const Request& request) {
+                 const Attempt& attempt) {
     std::vector<std::optional<Diagnostic>> errors(which.size());
     in_parallel(which.size(), work.options.workers, [&](std::size_t i) {
-        Tried& one = all[which[i]];
-        Result<Trial> trial = work.kept.run(work.site, request(one.rung), rays, Ask::Errors);
-        if (trial)
-            one.trial = std::move(*trial);
-        else
-            errors[i] = trial.error();
+        if (Status status = attempt(all[which[i]]); !status) errors[i] = status.error();
     });
     for (const auto& error : errors)
         if (error) return *error;
@@ -46,11 +43,13 @@ void skip_needless(const SurfaceWork& work, std::vector<Tried>& all, Tried& one,
     for (const Tried& lower : all) {
         if (!lower.trial || !one.rung.no_less_than(lower.rung)) continue;
         if (lower.right) {
+            one.above = true;
             one.skipped = fmt::format("{} does less and is right", lower.rung.text());
             return;
         }
         const double cost = work.cost(*lower.trial);
         if (cheapest > 0 && cost > hopeless * cheapest) {
+            one.above = true;
             one.skipped = fmt::format(
                 "{} does less and costs {:.0f} already, {:.0f} times what "
                 "the cheapest right one does",
@@ -60,9 +59,8 @@ void skip_needless(const SurfaceWork& work, std::vector<Tried>& all, Tried& one,
     }
 }
 
-template <typename Request, typename Right>
-Status climb(SurfaceWork& work, std::vector<Tried>& all, const Rays& rays, const Request& request,
-             const Right& right) {
+template <typename Attempt>
+Status climb(SurfaceWork& work, std::vector<Tried>& all, const Attempt& attempt) {
     int levels = 0;
     for (const Tried& one : all) levels = std::max(levels, one.rung.level + 1);
     for (int level = 0; level < levels; ++level) {
@@ -72,13 +70,11 @@ Status climb(SurfaceWork& work, std::vector<Tried>& all, const Rays& rays, const
                 cheapest = work.cost(*one.trial);
         std::vector<std::size_t> which;
         for (std::size_t i = 0; i < all.size(); ++i) {
-            if (all[i].rung.level != level || !all[i].skipped.empty()) continue;
+            if (all[i].rung.level != level || !all[i].skipped.empty() || all[i].trial) continue;
             if (!work.options.exhaustive) skip_needless(work, all, all[i], cheapest);
             if (all[i].skipped.empty()) which.push_back(i);
         }
-        if (Status status = try_level(work, all, which, rays, request); !status) return status;
-        for (const std::size_t i : which)
-            all[i].right = all[i].trial->refusal.empty() && right(*all[i].trial);
+        if (Status status = try_level(work, all, which, attempt); !status) return status;
     }
     return Done{};
 }
@@ -122,25 +118,96 @@ Status measure_shading(SurfaceWork& work) {
     return Done{};
 }
 
-// How wrong a search that is right makes even the best shadow.
-Status light_searches(SurfaceWork& work, const Tried& best) {
-    std::vector<Tried*> right;
-    for (Tried& search : work.searches)
-        if (search.trial && wrongness(work.loosest, *search.trial, true) <= 1)
-            right.push_back(&search);
-    std::vector<std::optional<Diagnostic>> errors(right.size());
-    in_parallel(right.size(), work.options.workers, [&](std::size_t i) {
-        const VariantRequest request =
-            SurfaceWork::unpruned(work.request("glsl_450", right[i]->rung, &best.rung));
-        Result<Trial> trial = work.kept.run(work.site, request, work.shadow_rays, Ask::Errors);
-        if (trial)
-            right[i]->best_lit = std::move(*trial);
-        else
-            errors[i] = trial.error();
-    });
-    for (const auto& error : errors)
-        if (error) return *error;
+scene::Tolerance only_shadow(const scene::Tolerance& tolerance) {
+    const auto limit = tolerance.find("shadow_wrong");
+    return limit == tolerance.end() ? scene::Tolerance() : scene::Tolerance{*limit};
+}
+
+VariantRequest request_of(const SurfaceWork& work, const Rung& search, const Rung* shadow) {
+    return SurfaceWork::unpruned(work.request("glsl_450", search, shadow));
+}
+
+// A shadow is no better than the point it falls on: how wrong a search that is right for some
+// target makes even the best shadow.  Null: that is not known yet.
+Status light_search(const SurfaceWork& work, const Tried* best, Tried& search) {
+    if (best == nullptr || !search.trial || wrongness(work.loosest, *search.trial, true) > 1)
+        return Done{};
+    Result<Trial> trial = work.kept.run(work.site, request_of(work, search.rung, &best->rung),
+                                        work.shadow_rays, Ask::Errors);
+    if (!trial) return trial.error();
+    search.best_lit = std::move(*trial);
+    search.right =
+        search.right && wrongness(only_shadow(work.strictest), *search.best_lit, false) <= 1;
     return Done{};
+}
+
+Status try_search(const SurfaceWork& work, const Tried* best, Tried& search) {
+    Result<Trial> trial = work.kept.run(work.site, request_of(work, search.rung, nullptr),
+                                        work.hit_rays, Ask::Errors);
+    if (!trial) return trial.error();
+    search.right = trial->refusal.empty() && wrongness(work.strictest, *trial, true) <= 1;
+    search.trial = std::move(*trial);
+    return light_search(work, best, search);
+}
+
+Status climb_searches(SurfaceWork& work, const Tried* best) {
+    return climb(work, work.searches,
+                 [&](Tried& search) { return try_search(work, best, search); });
+}
+
+// Shadows are tried on hits that are no trouble themselves: where tolerances are loose, on a rung
+// above those that would do.
+Status sharpen_base(SurfaceWork& work) {
+    work.base = most_accurate(work, work.searches, "p95");
+    const auto p95 = [](const Tried& search) {
+        const auto found = search.trial->errors.find("p95");
+        return found == search.trial->errors.end() ? 0 : found->second;
+    };
+    if (!work.searches[work.base].trial) return Done{};
+    for (std::size_t i = 0; i < work.searches.size(); ++i) {
+        Tried& higher = work.searches[i];
+        const Tried& base = work.searches[work.base];
+        if (p95(base) <= sharp) break;
+        if (higher.trial || !higher.above || !higher.rung.no_less_than(base.rung)) continue;
+        higher.skipped.clear();
+        if (Status status = try_search(work, nullptr, higher); !status) return status;
+        if (p95(higher) < p95(base)) work.base = i;
+    }
+    return Done{};
+}
+
+Status climb_shadows(SurfaceWork& work) {
+    const Rung& under = work.searches[work.base].rung;
+    return climb(work, work.shadows, [&](Tried& shadow) -> Status {
+        Result<Trial> trial = work.kept.run(work.site, request_of(work, under, &shadow.rung),
+                                            work.shadow_rays, Ask::Errors);
+        if (!trial) return trial.error();
+        shadow.right =
+            trial->refusal.empty() && wrongness(only_shadow(work.strictest), *trial, false) <= 1;
+        shadow.trial = std::move(*trial);
+        return Done{};
+    });
+}
+
+// Searches under the best of the shadows.  Where one that was right makes it too wrong, what is
+// above it is tried as well.
+Status light_searches(SurfaceWork& work) {
+    const Tried& best = work.shadows[most_accurate(work, work.shadows, "shadow_wrong")];
+    std::vector<std::size_t> tried;
+    std::vector<bool> was_right;
+    for (std::size_t i = 0; i < work.searches.size(); ++i) {
+        was_right.push_back(work.searches[i].right);
+        if (work.searches[i].trial) tried.push_back(i);
+    }
+    Status status = try_level(work, work.searches, tried,
+                              [&](Tried& search) { return light_search(work, &best, search); });
+    if (!status) return status;
+    bool any = false;
+    for (const std::size_t i : tried) any |= was_right[i] && !work.searches[i].right;
+    if (!any) return Done{};
+    for (Tried& search : work.searches)
+        if (search.above) search.skipped.clear();
+    return climb_searches(work, &best);
 }
 
 // Where ladders end: steps that the relief and the directions cannot use.
@@ -235,16 +302,9 @@ Status climb_ladders(SurfaceWork& work) {
             work.searches.push_back(std::move(tried));
         }
     }
-    const scene::Tolerance& tolerance = work.strictest;
-    Status status = climb(
-        work, work.searches, work.hit_rays,
-        [&](const Rung& rung) {
-            return SurfaceWork::unpruned(work.request(target, rung, nullptr));
-        },
-        [&](const Trial& trial) { return wrongness(tolerance, trial, true) <= 1; });
-    if (!status) return status;
-    work.base = most_accurate(work, work.searches, "p95");
-    if (Status shaded = measure_shading(work); !shaded) return shaded;
+    if (Status status = climb_searches(work, nullptr); !status) return status;
+    if (Status status = sharpen_base(work); !status) return status;
+    if (Status status = measure_shading(work); !status) return status;
     if (!work.wants_shadow()) return Done{};
 
     for (const dsl::Entry<dsl::Shadow>& entry : work.catalogue.shadows) {
@@ -252,22 +312,14 @@ Status climb_ladders(SurfaceWork& work) {
         if (!work.common.shadow.empty() && name != work.common.shadow) continue;
         // To be rid of a shadow takes a tolerance that says how wrong it may be.
         if (!entry.make()->depends_on_light() && work.common.shadow.empty() &&
-            (name != "none" || !tolerance.contains("shadow_wrong")))
+            (name != "none" || !work.strictest.contains("shadow_wrong")))
             continue;
         for (const Rung& rung : shadow_ladder(work.catalogue, name, pinned, limits))
             work.shadows.push_back({rung, {}, {}});
     }
-    const Rung& under = work.searches[work.base].rung;
-    status = climb(
-        work, work.shadows, work.shadow_rays,
-        [&](const Rung& rung) { return SurfaceWork::unpruned(work.request(target, under, &rung)); },
-        [&](const Trial& trial) {
-            const auto limit = tolerance.find("shadow_wrong");
-            return limit == tolerance.end() ||
-                   wrongness({{limit->first, limit->second}}, trial, false) <= 1;
-        });
-    if (!status || work.shadows.empty()) return status;
-    return light_searches(work, work.shadows[most_accurate(work, work.shadows, "shadow_wrong")]);
+    if (work.shadows.empty()) return Done{};
+    if (Status status = climb_shadows(work); !status) return status;
+    return light_searches(work);
 }
 
 }  // namespace intaglio::plan

@@ -32,6 +32,7 @@ struct Tried {
     std::optional<Trial> trial;  // Ask::Errors
     std::string skipped;         // why not tried
     bool right = false;
+    bool above = false;  // skipped for what a rung below it is
     std::optional<Trial> best_lit{};  // of a right search: with the most accurate shadow
 };
 

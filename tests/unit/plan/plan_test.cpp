@@ -156,6 +156,22 @@ TEST(Plan, NamesWhatFitsBesideManyThatDoNot) {
     EXPECT_LE(choice.candidates[*choice.cheapest_right].errors.at("shadow_wrong"), 8 * 1.25);
 }
 
+// Coarse hits would do, but the shadows that fall on them would not.
+TEST(Plan, ClimbsOnWhereShadowsNeedBetterHits) {
+    scene::Scene scene = small_scene({"glsl_450"});
+    scene::SceneSurface& surface = scene.surfaces[0];
+    surface.lights = {light("sun", 4)};
+    surface.elevation = {20, 90};
+    surface.features = {scene::Feature::Shadow};
+    surface.tolerance = {{"p95", 100}, {"missed", 100}};
+    const Candidate coarse = chosen_of(planned(scene));
+    EXPECT_THAT(coarse.text, testing::StartsWith("none"));
+    surface.tolerance["shadow_wrong"] = 21;
+    const Candidate fine = chosen_of(planned(scene));
+    EXPECT_LE(fine.errors.at("shadow_wrong"), 21);
+    EXPECT_GT(fine.cost, coarse.cost) << fine.text;
+}
+
 // Where a ray hits is as wrong whether the pixel is shown or not.
 TEST(Plan, WhatIsCutOffIsNoError) {
     scene::Scene scene = small_scene({"ps_2_b", "glsl_450"});
