@@ -214,7 +214,9 @@ Result<BuildReport> build_scene(const dsl::Catalogue& catalogue, const BuildOpti
     if (!folder) return folder.error();
     // And after it: another build may just have done the same.
     if (!options.force && is_current(stamp, request)) return current;
-    return build_locked(catalogue, options, *folder);
+    Result<BuildReport> report = build_locked(catalogue, options, *folder);
+    if (!report) folder->withdraw();
+    return report;
 }
 
 }  // namespace intaglio::build

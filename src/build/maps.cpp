@@ -250,24 +250,34 @@ std::string hash_of(std::string_view bytes) {
     return hash.hex();
 }
 
+std::vector<MapRecord> wanted_maps(const scene::SceneSurface& surface,
+                                   const std::filesystem::path& folder,
+                                   const std::vector<const Bundle*>& bundles) {
+    const Source from{surface, folder, 1};
+    std::vector<MapRecord> records;
+    for (const auto& [wanted, samplers] : all_wanted(bundles)) {
+        MapRecord record{wanted.kind, wanted.settings, {samplers.begin(), samplers.end()}, {}, {},
+                         {}};
+        record.source = source_of(from, wanted);
+        if (record.source.empty()) record.file = file_of(surface.name, wanted);
+        records.push_back(std::move(record));
+    }
+    return records;
+}
+
 Result<SurfaceMaps> make_maps(const scene::SceneSurface& surface,
                               const std::filesystem::path& folder,
                               const std::vector<const Bundle*>& bundles, Cache& cache,
                               int threads) {
     const Source from{surface, folder, threads};
     SurfaceMaps maps;
-    for (const auto& [wanted, samplers] : all_wanted(bundles)) {
-        MapRecord record{wanted.kind, wanted.settings, {samplers.begin(), samplers.end()}, {}, {},
-                         {}};
-        record.source = source_of(from, wanted);
-        if (record.source.empty()) {
-            Result<std::string> bytes = cached(from, wanted, cache);
-            if (!bytes) return bytes.error();
-            record.file = file_of(surface.name, wanted);
-            record.hash = hash_of(*bytes);
-            maps.files.push_back({record.file, std::move(*bytes)});
-        }
-        maps.records.push_back(std::move(record));
+    maps.records = wanted_maps(surface, folder, bundles);
+    for (MapRecord& record : maps.records) {
+        if (record.file.empty()) continue;
+        Result<std::string> bytes = cached(from, {record.kind, record.settings}, cache);
+        if (!bytes) return bytes.error();
+        record.hash = hash_of(*bytes);
+        maps.files.push_back({record.file, std::move(*bytes)});
     }
     return maps;
 }

@@ -42,6 +42,11 @@ Result<SurfaceMaps> make_maps(const scene::SceneSurface& surface,
                               const std::filesystem::path& folder,
                               const std::vector<const Bundle*>& bundles, Cache& cache, int threads);
 
+// The records of make_maps with nothing baked, so without hashes: which files there will be.
+std::vector<MapRecord> wanted_maps(const scene::SceneSurface& surface,
+                                   const std::filesystem::path& folder,
+                                   const std::vector<const Bundle*>& bundles);
+
 std::string hash_of(std::string_view bytes);
 
 }  // namespace intaglio::build

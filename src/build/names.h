@@ -34,5 +34,7 @@ std::string map_file(const std::string& surface, const std::string& kind);  // "
 inline constexpr std::string_view manifest_file = "manifest.json";
 // Of the build itself, in the output folder: its lock, what it did last, the pieces of variants.
 inline constexpr std::string_view state_folder = ".intaglio";
+// There: which maps the edge of the maps writes, for Ninja.
+inline constexpr std::string_view map_names_file = "maps.dd";
 
 }  // namespace intaglio::build

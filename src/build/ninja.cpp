@@ -32,6 +32,7 @@ struct Edge {
     std::vector<std::string> command;
     std::string about;
     std::string depfile = {};
+    std::string dyndep = {};  // a file that names further outputs
 };
 
 class Writer {
@@ -62,10 +63,13 @@ class Writer {
         text_ += ": intaglio";
         for (const std::string& path : edge.inputs) text_ += " " + escaped(path);
         // The program makes what is made, so it is an input of everything.
-        text_ += " | " + escaped(options_.tool.string()) + "\n  cmd =";
+        text_ += " | " + escaped(options_.tool.string());
+        if (!edge.dyndep.empty()) text_ += " || " + escaped(edge.dyndep);
+        text_ += "\n  cmd =";
         for (const std::string& word : edge.command) text_ += " " + value(maps::shell_quoted(word));
         text_ += "\n  about = " + value(edge.about) + "\n";
         if (!edge.depfile.empty()) text_ += "  depfile = " + value(edge.depfile) + "\n";
+        if (!edge.dyndep.empty()) text_ += "  dyndep = " + value(edge.dyndep) + "\n";
         text_ += "\n";
         outputs_.insert(outputs_.end(), edge.outputs.begin(), edge.outputs.end());
     }
@@ -140,18 +144,33 @@ void add_variants(Writer& writer, const scene::SceneSurface& surface, const Buil
     }
 }
 
-void add_maps_edge(Writer& writer, const scene::Scene& scene, const BuildOptions& options,
-                   const std::vector<std::string>& made) {
-    Edge edge;
+// What is baked follows from the variants, so one edge names the files and the next one makes them.
+void add_maps_edges(Writer& writer, const scene::Scene& scene, const BuildOptions& options,
+                    const std::vector<std::string>& made) {
+    Edge names;
+    names.outputs = {writer.state(std::string(map_names_file))};
+    names.inputs = with(inputs_of(scene), made);
+    names.command = writer.command(with(scene_words(options), {"--step", "map-names"}));
+    names.about = fmt::format("Names of the maps of {}", scene.name);
+    writer.add(names);
+    Edge maps;
     for (const scene::SceneSurface& surface : scene.surfaces)
-        edge.outputs.push_back(writer.state(surface.name + ".maps.json"));
-    edge.inputs = with(inputs_of(scene), made);
-    edge.command = writer.command(with(scene_words(options), {"--step", "maps"}));
-    edge.about = fmt::format("Maps of {}", scene.name);
-    writer.add(edge);
+        maps.outputs.push_back(writer.state(surface.name + ".maps.json"));
+    maps.inputs = names.inputs;
+    maps.command = writer.command(with(scene_words(options), {"--step", "maps"}));
+    maps.about = fmt::format("Maps of {}", scene.name);
+    maps.dyndep = names.outputs.front();
+    writer.add(maps);
 }
 
 }  // namespace
+
+std::string ninja_outputs_text(const fs::path& output, const std::vector<fs::path>& more) {
+    std::string text = "ninja_dyndep_version = 1\nbuild " + escaped(output.string());
+    if (!more.empty()) text += " |";
+    for (const fs::path& path : more) text += " " + escaped(path.string());
+    return text + ": dyndep\n  restat = 1\n";
+}
 
 Result<std::string> ninja_text(const scene::Scene& scene, const BuildOptions& options) {
     for (const std::string& path :
@@ -165,7 +184,7 @@ Result<std::string> ninja_text(const scene::Scene& scene, const BuildOptions& op
     std::vector<std::string> made;  // orders and bundles
     for (const scene::SceneSurface& surface : scene.surfaces)
         add_variants(writer, surface, options, made);
-    add_maps_edge(writer, scene, options, made);
+    add_maps_edges(writer, scene, options, made);
 
     Edge manifest;
     manifest.inputs = made;

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -27,21 +28,56 @@ bool is_plain_name(const std::string& name) {
     return !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos;
 }
 
+// The folder and those that it lies in, as far as they are not there; the innermost first.
+std::vector<fs::path> missing_folders(fs::path folder) {
+    std::vector<fs::path> missing;
+    std::error_code ignored;
+    for (; !folder.empty() && !fs::exists(folder, ignored); folder = folder.parent_path())
+        missing.push_back(folder);
+    return missing;
+}
+
+// Whether the open file is the one at this path, which another build may have removed.
+bool lies_at(int file, const fs::path& path) {
+    struct stat locked = {};
+    struct stat named = {};
+    return ::fstat(file, &locked) == 0 && ::stat(path.c_str(), &named) == 0 &&
+           locked.st_dev == named.st_dev && locked.st_ino == named.st_ino;
+}
+
 }  // namespace
 
 Result<OutputFolder> OutputFolder::open(const fs::path& folder, Use use) {
     const fs::path state = folder / state_folder;
-    std::error_code failure;
-    fs::create_directories(state, failure);
-    if (failure) return unwritable(state, failure.value());
     const fs::path path = state / "lock";
-    const int lock = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (lock < 0) return unwritable(path, errno);
-    OutputFolder output(folder, lock);
-    while (::flock(lock, use == Use::Build ? LOCK_EX : LOCK_SH) != 0)
-        if (errno != EINTR) return unwritable(path, errno);
-    if (use == Use::Build) output.remove_abandoned();
-    return output;
+    for (;;) {
+        std::vector<fs::path> made = missing_folders(state);
+        std::error_code failure;
+        fs::create_directories(state, failure);
+        if (failure) return unwritable(state, failure.value());
+        const int lock = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        const int reason = errno;
+        if (lock < 0 && !fs::exists(state, failure)) continue;  // withdrawn between the two calls
+        if (lock < 0) return unwritable(path, reason);
+        OutputFolder output(folder, lock, std::move(made));
+        while (::flock(lock, use == Use::Build ? LOCK_EX : LOCK_SH) != 0)
+            if (errno != EINTR) return unwritable(path, errno);
+        if (!lies_at(lock, path)) continue;  // whoever held it has withdrawn
+        if (use == Use::Build) output.remove_abandoned();
+        return output;
+    }
+}
+
+void OutputFolder::withdraw() {
+    if (made_.empty()) return;
+    std::error_code ignored;
+    const fs::path lock = state("lock");
+    for (fs::directory_iterator it(folder_ / state_folder, ignored), end; it != end;
+         it.increment(ignored))
+        if (it->path() != lock) return;
+    fs::remove(lock, ignored);
+    for (const fs::path& folder : made_)
+        if (!fs::remove(folder, ignored)) return;
 }
 
 fs::path OutputFolder::state(const std::string& name) const {
@@ -138,6 +174,7 @@ void OutputFolder::remove_all(const std::set<std::string>& names) {
 OutputFolder::OutputFolder(OutputFolder&& other) noexcept
     : folder_(std::move(other.folder_)),
       lock_(std::exchange(other.lock_, -1)),
+      made_(std::move(other.made_)),
       written_(other.written_),
       removed_(other.removed_) {}
 

@@ -24,6 +24,9 @@ class OutputFolder {
     // A file of the build's own state.
     std::filesystem::path state(const std::string& name) const;
 
+    // After an error: what `open` made goes again, unless something else lies in it by now.
+    void withdraw();
+
     // Replaces what differs.  Files of an earlier build that are no longer made go, if the manifest
     // that lies there says that they were that build's.  An error leaves every old file as it was,
     // unless the system refuses the very last step, a renaming.  The last file is put in place
@@ -41,8 +44,8 @@ class OutputFolder {
     ~OutputFolder();
 
   private:
-    OutputFolder(std::filesystem::path folder, int lock)
-        : folder_(std::move(folder)), lock_(lock) {}
+    OutputFolder(std::filesystem::path folder, int lock, std::vector<std::filesystem::path> made)
+        : folder_(std::move(folder)), lock_(lock), made_(std::move(made)) {}
     using Renames = std::vector<std::pair<std::filesystem::path, std::filesystem::path>>;
     Result<Renames> write_beside(const std::vector<OutputFile>& files) const;
     void remove_abandoned() const;
@@ -51,6 +54,7 @@ class OutputFolder {
 
     std::filesystem::path folder_;
     int lock_ = -1;
+    std::vector<std::filesystem::path> made_;  // folders, the innermost first
     int written_ = 0, removed_ = 0;
 };
 

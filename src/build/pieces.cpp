@@ -31,13 +31,17 @@ Result<Bundle> bundle_from(const dsl::Catalogue& catalogue, const plan::Order& o
     return bundle;
 }
 
+std::vector<const Bundle*> bundles_of(const BuiltSurface& surface) {
+    std::vector<const Bundle*> bundles;
+    for (const BuiltVariant& variant : surface.variants) bundles.push_back(&variant.bundle);
+    return bundles;
+}
+
 Status add_maps(const scene::SceneSurface& from, const scene::Scene& scene,
                 const BuildOptions& options, Cache& cache, BuiltSurface& surface,
                 std::vector<OutputFile>& files) {
-    std::vector<const Bundle*> bundles;
-    for (const BuiltVariant& variant : surface.variants) bundles.push_back(&variant.bundle);
     Result<SurfaceMaps> maps =
-        make_maps(from, scene.file.parent_path(), bundles, cache, options.jobs);
+        make_maps(from, scene.file.parent_path(), bundles_of(surface), cache, options.jobs);
     if (!maps) return maps.error();
     surface.maps = std::move(maps->records);
     for (OutputFile& file : maps->files) files.push_back(std::move(file));

@@ -14,6 +14,8 @@ namespace intaglio::build {
 Result<Bundle> bundle_from(const dsl::Catalogue& catalogue, const plan::Order& order,
                            const BundleOptions& options, Cache& cache);
 
+std::vector<const Bundle*> bundles_of(const BuiltSurface& surface);
+
 // The maps of a surface whose variants are there: their records, and the files that are made.
 Status add_maps(const scene::SceneSurface& from, const scene::Scene& scene,
                 const BuildOptions& options, Cache& cache, BuiltSurface& surface,

@@ -139,6 +139,22 @@ Status build_variant(const dsl::Catalogue& catalogue, const fs::path& order,
     return write_all(options.output, files);
 }
 
+Status build_map_names(const dsl::Catalogue& catalogue, const BuildOptions& options) {
+    const Result<scene::Scene> scene = scene_of(catalogue, options);
+    if (!scene) return scene.error();
+    std::vector<fs::path> files;
+    for (const scene::SceneSurface& each : scene->surfaces) {
+        const Result<BuiltSurface> surface = read_surface(options.output, each.name, each.targets);
+        if (!surface) return surface.error();
+        for (const MapRecord& map :
+             wanted_maps(each, scene->file.parent_path(), bundles_of(*surface)))
+            if (!map.file.empty()) files.push_back(options.output / map.file);
+    }
+    const std::string text =
+        ninja_outputs_text(options.output / maps_file(scene->surfaces.front().name), files);
+    return write_all(options.output, {{fmt::format("{}/{}", state_folder, map_names_file), text}});
+}
+
 Status build_maps(const dsl::Catalogue& catalogue, const BuildOptions& options) {
     const Result<scene::Scene> scene = scene_of(catalogue, options);
     if (!scene) return scene.error();

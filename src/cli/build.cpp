@@ -111,6 +111,7 @@ Status run_step(const dsl::Catalogue& catalogue, const Options& options) {
     const build::BuildOptions wanted = build_options(options);
     if (!options.order.empty()) return build::build_variant(catalogue, options.order, wanted);
     if (options.step == "orders") return build::build_orders(catalogue, wanted);
+    if (options.step == "map-names") return build::build_map_names(catalogue, wanted);
     if (options.step == "maps") return build::build_maps(catalogue, wanted);
     if (options.step == "header") return build::build_header(options.surface, wanted);
     return build::build_manifest(wanted);
@@ -202,8 +203,8 @@ void add_build(CLI::App& app, const dsl::Catalogue& catalogue, std::function<Sta
                         "Build the variant of this order (NAME.order.json), and nothing else");
     command
         ->add_option("--step", options->step,
-                     "One step of the edges for Ninja: orders, maps, header or manifest")
-        ->check(CLI::IsMember({"orders", "maps", "header", "manifest"}));
+                     "One step of the edges for Ninja: orders, map-names, maps, header or manifest")
+        ->check(CLI::IsMember({"orders", "map-names", "maps", "header", "manifest"}));
     command->add_option("--surface", options->surface, "Of the step `header`");
     command->callback([&chosen, &catalogue, options] {
         chosen = [&, options] { return run_build(catalogue, *options); };

@@ -321,6 +321,15 @@ TEST_F(BuildCommand, NinjaBuildsTheSameAndThenOnlyWhatChanged) {
     ASSERT_EQ(shell(ninja), 0) << log();
     EXPECT_THAT(log(), AllOf(HasSubstr("--surface wall"), Not(HasSubstr("--surface quay"))));
     EXPECT_EQ(built("made"), built_alone());
+    // A baked map is an output like any other: without it, it is made again, and nothing else.
+    const auto whole = built("made");
+    ASSERT_TRUE(fs::remove(folder_ / "made/wall.max-mip.png"));
+    ASSERT_EQ(shell(ninja), 0) << log();
+    EXPECT_THAT(log(), AllOf(HasSubstr("--step maps"), Not(HasSubstr("--order ")),
+                             Not(HasSubstr("--surface ")), Not(HasSubstr("--step orders"))));
+    EXPECT_EQ(built("made"), whole);
+    EXPECT_EQ(shell(ninja), 0);
+    EXPECT_THAT(log(), HasSubstr("no work to do"));
 }
 
 TEST_F(BuildCommand, TheCacheIsPruned) {

@@ -207,6 +207,40 @@ TEST_F(Build, RefusesWithACodeAndLeavesTheFolderAsItWas) {
     EXPECT_EQ(built(), before);
 }
 
+TEST_F(Build, AFailedOneLeavesNoFolderThatItMade) {
+    write_scene("['glsl_330']", {surface("quay", "parallax")});
+    BuildOptions wanted = options("new/and/deeper");
+    wanted.planner = [](const auto&, const auto&, const auto&) -> Result<Orders> {
+        return input_error("no-plan", "nothing is right enough");
+    };
+    EXPECT_EQ(refusal(wanted), "no-plan");
+    EXPECT_FALSE(fs::exists(folder_ / "new"));
+    fs::create_directories(folder_ / "new/and");
+    write("new/and/other", "a person's");
+    EXPECT_EQ(refusal(wanted), "no-plan");
+    EXPECT_TRUE(fs::exists(folder_ / "new/and/other"));
+    EXPECT_FALSE(fs::exists(folder_ / "new/and/deeper"));
+}
+
+// What waits for the folder's lock makes the folder again.
+TEST_F(Build, OneThatWaitsForAFailedOneIsNotDisturbed) {
+    write_scene("['glsl_330']", {surface("quay", "parallax")});
+    build(options("alone"));
+    std::thread other;
+    Result<BuildReport> report = internal_error("not-run", "it did not run");
+    BuildOptions wanted = options("shared");
+    wanted.planner = [&](const auto&, const auto&, const auto&) -> Result<Orders> {
+        other = std::thread([&] { report = build_scene(techniques(), options("shared")); });
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        return input_error("no-plan", "nothing is right enough");
+    };
+    EXPECT_EQ(refusal(wanted), "no-plan");
+    other.join();
+    EXPECT_TRUE(report.ok()) << to_string(report.error());
+    EXPECT_EQ(built("shared"), built("alone"));
+    EXPECT_TRUE(build(options("shared")).current);
+}
+
 TEST_F(Build, TargetsCanBeGivenInPlaceOfTheScenes) {
     write_scene("['glsl_330']", {surface("quay", "parallax")});
     BuildOptions wanted = options();
