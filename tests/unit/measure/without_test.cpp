@@ -4,24 +4,10 @@
 #include <algorithm>
 
 #include "src/measure/without.h"
-#include "templates/all_techniques.h"
+#include "tests/unit/variant/requests.h"
 
 namespace intaglio::measure {
 namespace {
-
-const dsl::Catalogue& catalogue() {
-    static const dsl::Catalogue all = templates::all_techniques();
-    return all;
-}
-
-VariantRequest request_of(const std::string& surface, const std::string& target,
-                          std::vector<std::pair<std::string, std::string>> knobs = {}) {
-    VariantRequest request;
-    request.surface = surface;
-    request.target = target;
-    request.knobs = std::move(knobs);
-    return request;
-}
 
 Omissions omissions_of(const VariantRequest& request) {
     const Result<Omissions> omissions = leave_out_each(catalogue(), request);

@@ -1,20 +1,10 @@
 // Every rule of a scene file, broken once: the sentence, its code, line and column.
 #include <gmock/gmock.h>
 
-#include "tests/unit/scene/scene_file.h"
+#include "tests/unit/scene/mistake.h"
 
 namespace intaglio::scene {
 namespace {
-
-struct Mistake {
-    const char* name;
-    std::string text;
-    std::string message;  // part of it
-    std::string code;
-    int line, column;
-};
-
-void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; }
 
 // `table` at the top of a scene that is otherwise right.
 std::string with(const std::string& table) { return table + "\n" + one_map + one_variant; }
@@ -118,20 +108,10 @@ TEST_P(SceneMistakes, HaveASentenceWithItsPlace) {
     const SceneFile file(mistake.text);
     const Result<measure::Plan> plan = read_measurement(file.path());
     ASSERT_FALSE(plan.ok());
-    const Diagnostic& error = plan.error();
-    EXPECT_EQ(error.code, mistake.code) << to_string(error);
-    EXPECT_THAT(error.message, ::testing::HasSubstr(mistake.message));
-    EXPECT_EQ(error.file, file.path().string());
-    EXPECT_EQ(error.line, mistake.line) << to_string(error);
-    EXPECT_EQ(error.column, mistake.column) << to_string(error);
-    EXPECT_EQ(error.fault, Fault::Input);
-    EXPECT_THAT(error.message, ::testing::Not(::testing::HasSubstr("\n")));
-    EXPECT_FALSE(error.message.empty());
-    EXPECT_NE(error.message.back(), '.');
+    expect_told(plan.error(), mistake, file);
 }
 
-INSTANTIATE_TEST_SUITE_P(Rules, SceneMistakes, ::testing::ValuesIn(mistakes),
-                         [](const auto& mistake) { return std::string(mistake.param.name); });
+INSTANTIATE_TEST_SUITE_P(Rules, SceneMistakes, ::testing::ValuesIn(mistakes), mistake_name);
 
 TEST(SceneErrors, TheFirstMistakeInTheFileIsTold) {
     const SceneFile file("[[map]]\nmaker = 'brick'\n[run]\nsize = 7\n[relief]\nscale = 2\n" +

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "templates/all_techniques.h"
-#include "tests/unit/scene/scene_file.h"
+#include "tests/unit/scene/mistake.h"
 
 namespace intaglio::scene {
 namespace {
@@ -201,16 +201,6 @@ TEST(SceneOfSurfaces, ScenesAndMeasurementsAreToldApart) {
     EXPECT_FALSE(is_scene(broken.path()).ok());
 }
 
-struct Mistake {
-    const char* name;
-    std::string text;
-    std::string message;  // part of it
-    std::string code;
-    int line, column;
-};
-
-void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; }
-
 // `line` below the keys of a surface that is otherwise right: line 9.
 std::string in_surface(const std::string& line) { return head + tolerance + wall + line; }
 // Above: line 3.
@@ -345,18 +335,10 @@ TEST_P(SurfaceMistakes, HaveASentenceWithItsPlace) {
     const dsl::Catalogue catalogue = templates::all_techniques();
     const Result<Scene> scene = read_scene(file.path(), &catalogue);
     ASSERT_FALSE(scene.ok());
-    const Diagnostic& error = scene.error();
-    EXPECT_EQ(error.code, mistake.code) << to_string(error);
-    EXPECT_THAT(error.message, ::testing::HasSubstr(mistake.message));
-    EXPECT_EQ(error.file, file.path().string());
-    EXPECT_EQ(error.line, mistake.line) << to_string(error);
-    EXPECT_EQ(error.column, mistake.column) << to_string(error);
-    EXPECT_EQ(error.fault, Fault::Input);
-    EXPECT_NE(error.message.back(), '.');
+    expect_told(scene.error(), mistake, file);
 }
 
-INSTANTIATE_TEST_SUITE_P(Rules, SurfaceMistakes, ::testing::ValuesIn(mistakes),
-                         [](const auto& mistake) { return std::string(mistake.param.name); });
+INSTANTIATE_TEST_SUITE_P(Rules, SurfaceMistakes, ::testing::ValuesIn(mistakes), mistake_name);
 
 // Whatever is cut out of a scene, it is read, or refused with a sentence about the file.
 TEST(SceneOfSurfaces, AnythingCutOutIsAMistakeAtWorst) {

@@ -4,7 +4,7 @@
 
 #include "src/check/reflect.h"
 #include "src/variant/explain.h"
-#include "templates/all_techniques.h"
+#include "tests/unit/variant/requests.h"
 
 namespace intaglio {
 namespace {
@@ -12,24 +12,10 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 
-const dsl::Catalogue& catalogue() {
-    static const dsl::Catalogue all = templates::all_techniques();
-    return all;
-}
-
-VariantRequest request(const std::string& surface, const std::string& target,
-                       std::vector<std::pair<std::string, std::string>> knobs = {}) {
-    VariantRequest request;
-    request.surface = surface;
-    request.target = target;
-    request.knobs = std::move(knobs);
-    return request;
-}
-
 TEST(Direct3D9Variant, IsJudgedAndLinkedByName) {
     for (const char* surface : {"search=none", "parallax_occlusion,output=displaced"})
         for (const char* target : {"ps_2_0", "ps_2_a", "ps_2_b", "ps_3_0"}) {
-            const Result<Variant> variant = make_variant(catalogue(), request(surface, target));
+            const Result<Variant> variant = make_variant(catalogue(), request_of(surface, target));
             ASSERT_TRUE(variant.ok()) << to_string(variant.error());
             const Result<Judged> judged = judge_variant(*variant);
             ASSERT_TRUE(judged.ok()) << to_string(judged.error());
@@ -55,7 +41,7 @@ TEST(Direct3D9Variant, IsJudgedAndLinkedByName) {
 
 TEST(Direct3D9Variant, AVertexProfileIsJudgedAlone) {
     const Result<Variant> variant =
-        make_variant(catalogue(), request("parallax_occlusion", "vs_3_0"));
+        make_variant(catalogue(), request_of("parallax_occlusion", "vs_3_0"));
     ASSERT_TRUE(variant.ok()) << to_string(variant.error());
     const Result<Judged> judged = judge_variant(*variant);
     ASSERT_TRUE(judged.ok()) << to_string(judged.error());
@@ -68,7 +54,7 @@ TEST(Direct3D9Variant, AVertexProfileIsJudgedAlone) {
 }
 
 TEST(Direct3D9Variant, ItsProductsAreTextAndBytes) {
-    const Result<Variant> variant = make_variant(catalogue(), request("search=none", "ps_2_0"));
+    const Result<Variant> variant = make_variant(catalogue(), request_of("search=none", "ps_2_0"));
     ASSERT_TRUE(variant.ok()) << to_string(variant.error());
     const Result<Product> text = product_of(*variant, ir::Stage::Pixel);
     const Result<Product> bytes = product_of(*variant, ir::Stage::Pixel, Form::Bytecode);
@@ -79,13 +65,13 @@ TEST(Direct3D9Variant, ItsProductsAreTextAndBytes) {
     EXPECT_TRUE(bytes->binary);
     EXPECT_EQ(bytes->bytes.substr(0, 4), std::string("\x00\x02\xff\xff", 4));
     EXPECT_THAT(bytes->bytes, HasSubstr("CTAB"));
-    const Result<Variant> other = make_variant(catalogue(), request("search=none", "glsl_450"));
+    const Result<Variant> other = make_variant(catalogue(), request_of("search=none", "glsl_450"));
     ASSERT_TRUE(other.ok());
     EXPECT_EQ(product_of(*other, ir::Stage::Pixel, Form::Bytecode).error().code, "no-bytecode");
 }
 
 TEST(Direct3D9Variant, ARefusedOneIsExplainedAllTheSame) {
-    const VariantRequest wanted = request("parallax_occlusion", "ps_2_0", {{"taps", "16"}});
+    const VariantRequest wanted = request_of("parallax_occlusion", "ps_2_0", {{"taps", "16"}});
     const Result<Variant> variant = make_variant(catalogue(), wanted);
     ASSERT_FALSE(variant.ok());
     EXPECT_TRUE(is_refusal(variant.error()));
@@ -101,7 +87,7 @@ TEST(Direct3D9Variant, ARefusedOneIsExplainedAllTheSame) {
 }
 
 TEST(Direct3D9Variant, OneThatFitsIsExplainedAsItIsEmitted) {
-    const VariantRequest wanted = request("parallax_occlusion,output=displaced", "ps_2_0");
+    const VariantRequest wanted = request_of("parallax_occlusion,output=displaced", "ps_2_0");
     const Result<Variant> variant = make_variant(catalogue(), wanted);
     ASSERT_TRUE(variant.ok()) << to_string(variant.error());
     const Result<Judged> judged = judge_variant(*variant);
@@ -122,7 +108,7 @@ TEST(ExplainedVariant, ALanguageCountsTheOperationsOfItsTextByStepAndLine) {
         const auto count = [&](const char* taps) {
             const auto explained = explain_variant(
                 catalogue(),
-                request("parallax_occlusion,output=displaced", target, {{"taps", taps}}));
+                request_of("parallax_occlusion,output=displaced", target, {{"taps", taps}}));
             EXPECT_TRUE(explained.ok()) << to_string(explained.error());
             const d3d9::Explanation& pixel = explained->stages.front().explanation;
             EXPECT_EQ(explained->stages.front().stage, ir::Stage::Pixel);

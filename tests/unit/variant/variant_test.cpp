@@ -6,16 +6,10 @@
 
 #include "src/check/cost.h"
 #include "src/check/reflect.h"
-#include "src/variant/variant.h"
-#include "templates/all_techniques.h"
+#include "tests/unit/variant/requests.h"
 
 namespace intaglio {
 namespace {
-
-const dsl::Catalogue& catalogue() {
-    static const dsl::Catalogue all = templates::all_techniques();
-    return all;
-}
 
 std::vector<std::string> judged_targets() {
     std::vector<std::string> names;
@@ -26,11 +20,7 @@ std::vector<std::string> judged_targets() {
 
 Result<Variant> variant_of(const std::string& surface, const std::string& target,
                            const std::vector<std::pair<std::string, std::string>>& knobs = {}) {
-    VariantRequest request;
-    request.surface = surface;
-    request.target = target;
-    request.knobs = knobs;
-    return make_variant(catalogue(), request);
+    return make_variant(catalogue(), request_of(surface, target, knobs));
 }
 
 TEST(Variant, LanguagesWithoutSpirvEndAfterTheFrontEnd) {
