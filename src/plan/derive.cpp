@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "generator/base/nearest.h"
 #include "generator/ir/print.h"
 #include "generator/passes/pipeline.h"
 #include "generator/passes/rewrite.h"
@@ -117,44 +116,6 @@ void derive_known(SurfaceWork& work) {
     known.ranges["height_map.x"] = measure::channel_range(heights, 0);
 }
 
-Status check_names(const SurfaceWork& work) {
-    std::vector<std::string> names;
-    std::map<std::string, Status> taken;  // by knob, what a technique says that has it
-    const auto look_at = [&](const std::vector<dsl::KnobBase*>& knobs) {
-        for (dsl::KnobBase* knob : knobs) {
-            names.push_back(knob->name());
-            for (const auto& [name, value] : work.surface.knobs) {
-                if (name != knob->name()) continue;
-                const auto [place, is_new] = taken.try_emplace(name, knob->set(value));
-                // One technique that takes the value is enough.
-                if (!is_new && !place->second) place->second = knob->set(value);
-            }
-        }
-    };
-    const auto add = [&](const auto& technique) { look_at(technique->knobs()); };
-    for (const auto& entry : work.catalogue.searches) add(entry.make());
-    for (const auto& entry : work.catalogue.shadows) add(entry.make());
-    const Result<dsl::Surface> surface = dsl::make_surface(
-        work.catalogue, "search=" + work.catalogue.searches.front().name + work.common.rest);
-    if (!surface) return surface.error();
-    look_at(surface->knobs());
-    for (const auto& [knob, value] : work.surface.knobs) {
-        if (std::find(names.begin(), names.end(), knob) == names.end())
-            return input_error("unknown-knob", unknown_name_sentence("knob", knob, names));
-        if (!taken.at(knob)) return taken.at(knob).error();
-    }
-    const auto check = [&](const auto& table, const char* kind, const std::string& pinned) {
-        std::vector<std::string> all;
-        for (const auto& entry : table) all.push_back(entry.name);
-        if (pinned.empty() || std::find(all.begin(), all.end(), pinned) != all.end())
-            return Status(Done{});
-        return Status(input_error("unknown-technique", unknown_name_sentence(kind, pinned, all)));
-    };
-    if (Status status = check(work.catalogue.searches, "search", work.common.search); !status)
-        return status;
-    return check(work.catalogue.shadows, "shadow", work.common.shadow);
-}
-
 }  // namespace
 
 Status derive(SurfaceWork& work) {
@@ -166,7 +127,7 @@ Status derive(SurfaceWork& work) {
             if (!first) loose->second = std::max(loose->second, limit);
         }
     derive_parts(work);
-    if (Status status = check_names(work); !status) return status;
+    if (Status status = check_pinned(work); !status) return status;
     work.facts = measure::relief_facts(work.site.field());
     const scene::SceneSurface& of = work.surface;
     work.views = {of.elevation.least, of.elevation.most, of.azimuth.least, of.azimuth.most};
@@ -180,6 +141,18 @@ Status derive(SurfaceWork& work) {
     return Done{};
 }
 
+// What is pinned is for the techniques that have it.
+static std::map<std::string, ir::LoopForm> with_those_loops(
+    const dsl::Catalogue& catalogue, VariantRequest request,
+    std::map<std::string, ir::LoopForm> pinned) {
+    std::erase_if(pinned, [&](const auto& loop) {
+        request.loop_forms = {loop};
+        const Result<Recorded> recorded = record_variant(catalogue, request);
+        return !recorded && recorded.error().code == "unknown-loop";
+    });
+    return pinned;
+}
+
 VariantRequest SurfaceWork::request(const std::string& target, const Rung& search,
                                     const Rung* shadow, const Schedule& schedule) const {
     VariantRequest request;
@@ -190,7 +163,7 @@ VariantRequest SurfaceWork::request(const std::string& target, const Rung& searc
                                                                          : common.shadow,
                     common.rest);
     request.target = target;
-    request.loop_forms = common.loop_forms;
+    request.loop_forms = with_those_loops(catalogue, request, common.loop_forms);
     request.per_vertex = schedule.per_vertex;
     const Result<dsl::Surface> composed = dsl::make_surface(catalogue, request.surface);
     if (!composed) return request;

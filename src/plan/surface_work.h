@@ -32,7 +32,7 @@ struct Tried {
     std::optional<Trial> trial;  // Ask::Errors
     std::string skipped;         // why not tried
     bool right = false;
-    bool above = false;  // skipped for what a rung below it is
+    bool above = false;               // skipped for what a rung below it is
     std::optional<Trial> best_lit{};  // of a right search: with the most accurate shadow
 };
 
@@ -83,6 +83,10 @@ struct SurfaceWork {
     std::string optimized(const VariantRequest& request) const;
     double cost(const Trial& trial) const { return trial.cost(read_weight); }
 };
+
+// What the surface pins: "unknown-knob", "unknown-technique", "unknown-uniform", "unknown-loop",
+// each with the nearest; "scene-conflict" where it says two things at once.
+Status check_pinned(const SurfaceWork& work);
 
 // Fills `common` and `dropped` with what the scene alone decides.  Errors: unknown names.
 Status derive(SurfaceWork& work);
