@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 
+#include "generator/base/nearest.h"
 #include "generator/target/target.h"
 #include "src/measure/named_metric.h"
 #include "src/variant/variant.h"
@@ -130,6 +133,38 @@ Finding whole(const Observation& observation, Finding::Kind kind, std::string se
     return finding;
 }
 
+// A limit of a surface, target or variant that is not measured: misspelled, or no longer there.
+std::vector<Finding> idle_limits(const Budgets& budgets, const std::vector<Observation>& now) {
+    std::vector<Finding> findings;
+    std::set<std::tuple<std::string, std::string, std::string>> said;
+    for (const Rule& rule : budgets.rules) {
+        const auto& [surface, target, settings] = rule.selector;
+        if (std::any_of(now.begin(), now.end(), [&](const Observation& each) {
+                return rule.selector.matches(each.surface, each.target, each.settings);
+            }))
+            continue;
+        if (!said.insert({surface, target, settings}).second) continue;
+        std::vector<std::string> surfaces;
+        for (const Observation& each : now)
+            if (surfaces.empty() || surfaces.back() != each.surface)
+                surfaces.push_back(each.surface);
+        const bool known = surface.empty() ||
+                           std::find(surfaces.begin(), surfaces.end(), surface) != surfaces.end();
+        Finding finding;
+        finding.kind = Finding::Kind::Unknown;
+        finding.surface = surface.empty() ? "any surface" : surface;
+        finding.target = target.empty() ? "any target" : target;
+        finding.settings = settings;
+        finding.budget_line = rule.bound.line;
+        finding.sentence =
+            known ? "it is limited, and the scene has no such variant"
+                  : "it is limited, and not measured: " +
+                        unknown_name_sentence("surface of the scene", surface, surfaces);
+        findings.push_back(std::move(finding));
+    }
+    return findings;
+}
+
 bool changed(const Finding& finding) { return finding.before != finding.after; }
 
 }  // namespace
@@ -181,6 +216,7 @@ Verdict judge(const Budgets& budgets, const std::vector<Observation>& now,
         if (!find(now, before))
             add(whole(before, Finding::Kind::Vanished,
                       "it is in the baseline, and the scene no longer has it"));
+    for (Finding& idle : idle_limits(budgets, now)) add(std::move(idle));
     for (std::size_t i = 0; i < used.size(); ++i) {
         const Waiver& waiver = budgets.waivers[i];
         const std::string place = fmt::format("{}:{}", budgets.file, waiver.line);

@@ -157,6 +157,20 @@ TEST_F(BudgetFile, UnknownIsNeverAPass) {
     EXPECT_TRUE(verdict(text, {text}).passes());
 }
 
+TEST_F(BudgetFile, ALimitOfWhatNobodyMeasuresIsNoPass) {
+    const std::vector<Observation> now = {observed("ps_2_0", {{"arithmetic", 10}, {"p95", 1}})};
+    const auto judged = [&](const char* table) {
+        return judge(read(fmt::format("{}\np95 = {{ max = 2 }}\nmissed = {{ max = 2 }}\n", table)),
+                     now, {}, "2026-01-01");
+    };
+    EXPECT_THAT(
+        judged("[surface.furr]").findings,
+        testing::Contains(testing::Field(&Finding::sentence, HasSubstr("did you mean 'fur'"))));
+    for (const char* table : {"[surface.furr]", "[target.ps_2_b]",
+                              "[[variant]]\nsurface = \"fur\"\nsettings = \"taps=9\""})
+        EXPECT_FALSE(judged(table).passes()) << table;
+}
+
 TEST_F(BudgetFile, AWaiverForgivesUpToItsLastDayAndSaysWhenItForgivesNothing) {
     const Budgets budgets = read(
         "[limits]\narithmetic = { max = 64 }\np95 = { max = 1 }\n"
