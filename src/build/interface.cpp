@@ -251,21 +251,16 @@ Result<Interface> interface_of(const Variant& variant, const Accepted& accepted)
     if (profile_of(*variant.target)) return of_bytecode(variant, accepted);
     const check::Language language = *language_of(*variant.target);
     const bool blocks = language == check::Language::Glsl450 || language == check::Language::Hlsl5;
-    const bool hlsl = language == check::Language::Hlsl3 || language == check::Language::Hlsl5;
     Interface result;
     for (const ir::Stage stage : {ir::Stage::Vertex, ir::Stage::Pixel}) {
         const bool vertex = stage == ir::Stage::Vertex;
-        const Result<check::Reflection> reflection =
-            blocks || hlsl
-                ? check::reflect_valid(vertex ? accepted.program->vertex : accepted.program->pixel)
-                : accepted.names[vertex ? 0 : 1];
-        if (!reflection) return reflection.error();
-        Result<StageInterface> made = blocks ? from_spirv(variant, stage, *reflection)
-                                             : from_names(variant, stage, *reflection);
+        const check::Reflection& reflection = accepted.reflections[vertex ? 0 : 1];
+        Result<StageInterface> made = blocks ? from_spirv(variant, stage, reflection)
+                                             : from_names(variant, stage, reflection);
         if (!made) return made.error();
         (vertex ? result.vertex : result.pixel) = std::move(*made);
         if (!vertex) continue;
-        for (const check::Reflection::Interface& input : reflection->inputs)
+        for (const check::Reflection::Interface& input : reflection.inputs)
             if (input.built_in.empty())
                 result.inputs.push_back({input.name, input.components, input.location});
     }

@@ -139,18 +139,24 @@ Result<Program> link_apart(const Source& vertex, const Source& pixel) {
 
 }  // namespace
 
-Result<Program> link_to_spirv(const Source& vertex, const Source& pixel) {
+Result<Linked> link_and_reflect(const Source& vertex, const Source& pixel) {
     if (Status fit = check_sources(vertex, pixel); !fit) return fit.error();
     Result<Program> program =
         is_hlsl(pixel.language) ? link_apart(vertex, pixel) : link_together(vertex, pixel);
     if (!program) return program.error();
-    const Result<Reflection> vertex_view = reflect_valid(program->vertex);
+    Result<Reflection> vertex_view = reflect_valid(program->vertex);
     if (!vertex_view) return vertex_view.error();
-    const Result<Reflection> pixel_view = reflect_valid(program->pixel);
+    Result<Reflection> pixel_view = reflect_valid(program->pixel);
     if (!pixel_view) return pixel_view.error();
     if (Status fit = check_varyings(*vertex_view, *pixel_view, pixel); !fit) return fit.error();
     if (Status fit = check_blocks(*vertex_view, *pixel_view, pixel); !fit) return fit.error();
-    return program;
+    return Linked{std::move(*program), std::move(*vertex_view), std::move(*pixel_view)};
+}
+
+Result<Program> link_to_spirv(const Source& vertex, const Source& pixel) {
+    Result<Linked> linked = link_and_reflect(vertex, pixel);
+    if (!linked) return linked.error();
+    return std::move(linked->program);
 }
 
 }  // namespace intaglio::check

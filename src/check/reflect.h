@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "generator/base/result.h"
+#include "src/check/frontend.h"
 #include "src/check/source.h"
 
 namespace intaglio::check {
@@ -78,6 +79,13 @@ Result<Reflection> reflect_valid(const SpirvWords& words);
 // uniforms as one block without a name.  Errors: those of parse; "unknown-uniform": a type that no
 // text of ours has (matrices, cubes).
 Result<Reflection> reflect_names(const Source& source);
+
+// link_to_spirv with what it read of both stages to see whether they fit.
+struct Linked {
+    Program program;
+    Reflection vertex, pixel;
+};
+Result<Linked> link_and_reflect(const Source& vertex, const Source& pixel);
 
 // The member of that name in any uniform block, with its block; nullopt when there is none.
 struct FoundMember {

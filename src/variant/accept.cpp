@@ -51,17 +51,21 @@ Result<Accepted> accept_variant(const Variant& variant) {
             // Parses, and keeps what later would be parsed for again.
             Result<check::Reflection> names = check::reflect_names(source_of(variant, stage));
             if (!names) return names.error();
-            accepted.names.push_back(std::move(*names));
+            accepted.reflections.push_back(std::move(*names));
             accepted.steps.push_back(
                 fmt::format("{}: glslang {}", word(stage), name_of(*language)));
         }
     if (!check::has_spirv(*language)) return accepted;
-    Result<check::Program> program = check::link_to_spirv(source_of(variant, ir::Stage::Vertex),
-                                                          source_of(variant, ir::Stage::Pixel));
-    if (!program) return program.error();
+    Result<check::Linked> linked = check::link_and_reflect(source_of(variant, ir::Stage::Vertex),
+                                                           source_of(variant, ir::Stage::Pixel));
+    if (!linked) return linked.error();
     accepted.steps.push_back(
         fmt::format("both: glslang {} to SPIR-V, spirv-val, stages fit", name_of(*language)));
-    accepted.program = std::move(*program);
+    accepted.program = std::move(linked->program);
+    if (!own_rules) {
+        accepted.reflections.push_back(std::move(linked->vertex));
+        accepted.reflections.push_back(std::move(linked->pixel));
+    }
     return accepted;
 }
 

@@ -20,8 +20,9 @@ struct Accepted {
     // for a vertex profile alone.
     std::optional<check::Program> program;
     std::vector<d3d9::Shader> shaders;  // Direct3D 9: as decoded from their bytes, vertex first
-    // Vertex and pixel, of a language whose uniforms have names and no places: see reflect_names.
-    std::vector<check::Reflection> names;
+    // Vertex and pixel; nothing of Direct3D 9's bytecode.  Of a language whose uniforms have names
+    // and no places, as reflect_names says; of others, what is in the program.
+    std::vector<check::Reflection> reflections;
 };
 
 // Errors: those of the first witness that refuses; "no-witness" for a target without one.
