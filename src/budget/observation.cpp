@@ -10,6 +10,7 @@
 
 #include "src/budget/observing.h"
 #include "src/maps/files.h"
+#include "src/measure/named_metric.h"
 #include "src/report/command.h"
 #include "src/variant/explain.h"
 
@@ -80,13 +81,8 @@ void add_hits(Observation& into, const measure::HitStatistics& hits, const std::
 }
 
 void add_slots(Observation& into, const d3d9::Resources& used) {
-    into.values["arithmetic"] = used.arithmetic;
-    into.values["texture"] = used.texture;
-    into.values["total"] = used.total;
-    into.values["temps"] = used.temps;
-    into.values["constants"] = used.constants;
-    into.values["samplers"] = used.samplers;
-    into.values["dependent_level"] = used.dependent_level;
+    for (const auto& [metric, value] : measure::metrics_of(used))
+        into.values[std::string(metric)] = value;
 }
 
 void add_spirv(Observation& into, const check::SpirvCost& cost) {

@@ -5,6 +5,7 @@
 
 #include "generator/ir/print.h"
 #include "src/measure/hash.h"
+#include "src/measure/named_metric.h"
 
 namespace intaglio::build {
 namespace {
@@ -43,16 +44,9 @@ std::vector<plan::Figure> slots_of(const std::vector<d3d9::Shader>& shaders) {
     std::vector<plan::Figure> figures;
     for (const d3d9::Shader& shader : shaders) {
         if (!is_pixel(shader.profile)) continue;
-        const d3d9::Resources used = d3d9::count(shader);
-        const std::pair<const char*, int> rows[] = {{"arithmetic", used.arithmetic},
-                                                    {"texture", used.texture},
-                                                    {"total", used.total},
-                                                    {"temps", used.temps},
-                                                    {"constants", used.constants},
-                                                    {"samplers", used.samplers},
-                                                    {"dependent_level", used.dependent_level}};
-        for (const auto& [name, value] : rows)
-            figures.push_back({name, static_cast<double>(value), "Direct3D 9's charge"});
+        for (const auto& [metric, value] : measure::metrics_of(d3d9::count(shader)))
+            figures.push_back(
+                {std::string(metric), static_cast<double>(value), "Direct3D 9's charge"});
     }
     return figures;
 }

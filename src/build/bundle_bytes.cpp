@@ -19,16 +19,17 @@ json json_of(const Uniform& uniform) {
             uniform.stride,     uniform.reg};
 }
 
+// The elements of an array, in order.
+template <typename... Fields>
+void read_row(const json& from, Fields&... fields) {
+    std::size_t i = 0;
+    (from.at(i++).get_to(fields), ...);
+}
+
 Uniform uniform_of(const json& from) {
     Uniform uniform;
-    uniform.name = from.at(0);
-    uniform.comment = from.at(1);
-    uniform.scalar = static_cast<Scalar>(from.at(2).get<int>());
-    uniform.components = from.at(3);
-    uniform.elements = from.at(4);
-    uniform.offset = from.at(5);
-    uniform.stride = from.at(6);
-    uniform.reg = from.at(7);
+    read_row(from, uniform.name, uniform.comment, uniform.scalar, uniform.components,
+             uniform.elements, uniform.offset, uniform.stride, uniform.reg);
     return uniform;
 }
 
@@ -39,14 +40,8 @@ json json_of(const Sampler& sampler) {
 
 Sampler sampler_of(const json& from) {
     Sampler sampler;
-    sampler.name = from.at(0);
-    sampler.comment = from.at(1);
-    sampler.set = from.at(2);
-    sampler.slot = from.at(3);
-    sampler.sampler_slot = from.at(4);
-    sampler.dimension = from.at(5);
-    sampler.nearest = from.at(6);
-    sampler.one_level = from.at(7);
+    read_row(from, sampler.name, sampler.comment, sampler.set, sampler.slot, sampler.sampler_slot,
+             sampler.dimension, sampler.nearest, sampler.one_level);
     return sampler;
 }
 

@@ -1,6 +1,8 @@
 // The table.
 #include "src/measure/named_metric.h"
 
+#include "generator/target/d3d9/resources.h"
+
 namespace intaglio::measure {
 namespace {
 
@@ -43,6 +45,16 @@ constexpr Metric table[] = {
 }  // namespace
 
 std::span<const Metric> metrics() { return table; }
+
+std::array<std::pair<std::string_view, int>, 7> metrics_of(const d3d9::Resources& used) {
+    return {{{"arithmetic", used.arithmetic},
+             {"texture", used.texture},
+             {"total", used.total},
+             {"temps", used.temps},
+             {"constants", used.constants},
+             {"samplers", used.samplers},
+             {"dependent_level", used.dependent_level}}};
+}
 
 const Metric* find_metric(std::string_view name) {
     for (const Metric& metric : table)

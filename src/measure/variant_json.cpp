@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/measure/command.h"
+#include "src/measure/named_metric.h"
 
 namespace intaglio::measure {
 
@@ -38,13 +39,9 @@ Json json_of(const check::SpirvCost& cost) {
 
 Json json_of(const std::optional<d3d9::Resources>& slots) {
     if (!slots) return {};
-    return {{"arithmetic", slots->arithmetic},
-            {"texture", slots->texture},
-            {"total", slots->total},
-            {"temps", slots->temps},
-            {"constants", slots->constants},
-            {"samplers", slots->samplers},
-            {"dependent_level", slots->dependent_level}};
+    Json json = Json::object();
+    for (const auto& [metric, value] : metrics_of(*slots)) json[std::string(metric)] = value;
+    return json;
 }
 
 }  // namespace intaglio::measure

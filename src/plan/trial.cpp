@@ -13,6 +13,7 @@
 #include "src/measure/evaluated.h"
 #include "src/measure/hits_request.h"
 #include "src/measure/interpreted.h"
+#include "src/measure/named_metric.h"
 
 namespace intaglio::plan {
 namespace {
@@ -306,14 +307,8 @@ Result<std::map<std::string, double>> static_costs(const Variant& variant) {
     if (profile_of(*variant.target)) {
         const Result<d3d9::Shader> shader = decode_stage(variant, ir::Stage::Pixel);
         if (!shader) return shader.error();
-        const d3d9::Resources used = d3d9::count(*shader);
-        costs = {{"arithmetic", used.arithmetic},
-                 {"texture", used.texture},
-                 {"total", used.total},
-                 {"temps", used.temps},
-                 {"constants", used.constants},
-                 {"samplers", used.samplers},
-                 {"dependent_level", used.dependent_level}};
+        for (const auto& [metric, value] : measure::metrics_of(d3d9::count(*shader)))
+            costs[std::string(metric)] = value;
         return costs;
     }
     const std::optional<check::Language> language = language_of(*variant.target);

@@ -59,6 +59,23 @@ TEST_P(LinkEachLanguage, ASharedPlaceHasOneLayout) {
     }
 }
 
+TEST_P(LinkEachLanguage, HandsOnWhatTheBinariesSay) {
+    const Result<Linked> linked =
+        link_and_reflect(parallax_vertex(GetParam()), parallax_pixel(GetParam()));
+    ASSERT_TRUE(linked.ok()) << to_string(linked.error());
+    const auto expect_same = [](const Reflection& handed, const SpirvWords& words) {
+        const Result<Reflection> read = reflect(words);
+        ASSERT_TRUE(read.ok());
+        EXPECT_EQ(handed.blocks, read->blocks);
+        EXPECT_EQ(handed.images, read->images);
+        EXPECT_EQ(handed.inputs, read->inputs);
+        EXPECT_EQ(handed.outputs, read->outputs);
+        EXPECT_FALSE(handed.outputs.empty());
+    };
+    expect_same(linked->vertex, linked->program.vertex);
+    expect_same(linked->pixel, linked->program.pixel);
+}
+
 TEST_P(LinkEachLanguage, RefusesAnInputThatNobodyFeeds) {
     Source pixel = parallax_pixel(GetParam());
     for (std::size_t at = pixel.text.find("view"); at != std::string::npos;
