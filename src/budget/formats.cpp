@@ -126,6 +126,21 @@ std::string escaped(const std::string& text, bool property) {
     return safe;
 }
 
+// A path as the relative reference that SARIF wants.
+std::string uri_of(const std::string& path) {
+    constexpr std::string_view plain = "-._~/:@!$&'()*+,;=";
+    std::string uri;
+    for (const char c : path) {
+        const auto byte = static_cast<unsigned char>(c);
+        const bool alphanumeric = (byte >= '0' && byte <= '9') || (byte >= 'A' && byte <= 'Z') ||
+                                  (byte >= 'a' && byte <= 'z');
+        uri += alphanumeric || plain.find(c) != std::string_view::npos
+                   ? std::string(1, c)
+                   : fmt::format("%{:02X}", byte);
+    }
+    return uri;
+}
+
 Json json_number(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -241,7 +256,7 @@ std::string to_sarif(const Verdict& verdict) {
              {"message", {{"text", long_sentence(finding)}}},
              {"locations",
               {{{"physicalLocation",
-                 {{"artifactLocation", {{"uri", place.file}}},
+                 {{"artifactLocation", {{"uri", uri_of(place.file)}}},
                   {"region", {{"startLine", place.line}}}}}}}},
              {"partialFingerprints",
               {{"variant/metric", fmt::format("{} {}", finding.name(), finding.metric)}}}});

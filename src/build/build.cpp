@@ -112,7 +112,7 @@ Result<BuildReport> build_locked(const dsl::Catalogue& catalogue, const BuildOpt
 
     Cache cache(options.cache);
     const Result<Orders> orders =
-        options.planner(catalogue, *scene, {options.cache, options.jobs, {}});
+        options.planner(catalogue, *scene, {options.cache, options.jobs, options.planning});
     if (!orders) return orders.error();
     Result<std::vector<BuiltSurface>> surfaces = make_variants(catalogue, *orders, options, cache);
     if (!surfaces) return surfaces.error();

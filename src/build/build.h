@@ -29,6 +29,7 @@ struct BuildOptions {
     Planner planner = planned_orders;
     // How many variants are done of how many; one call at a time.
     std::function<void(int done, int all)> progress = {};
+    std::function<void(const std::string& what, int done, int all)> planning = {};  // before that
 };
 
 struct BuildReport {

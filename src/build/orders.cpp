@@ -56,10 +56,7 @@ Result<Orders> planned_orders(const dsl::Catalogue& catalogue, const scene::Scen
     wanted.workers = thread_count(options.jobs);
     // Where `intaglio plan` keeps it too.
     if (!options.cache.empty()) wanted.cache = options.cache / "measured";
-    if (options.progress)
-        wanted.progress = [&](const std::string&, int done, int all) {
-            options.progress(done, all);
-        };
+    wanted.progress = options.progress;
     Result<plan::Plan> plan = plan::plan_scene(catalogue, scene, wanted);
     if (!plan) return plan.error();
     Orders orders;

@@ -19,7 +19,7 @@ struct PlannerOptions {
     std::filesystem::path cache;  // of what was measured; empty: nothing is kept
     int jobs = 0;                 // 0: as the machine has cores
     // What is worked on; may be empty.
-    std::function<void(int done, int all)> progress = {};
+    std::function<void(const std::string& what, int done, int all)> progress = {};
 };
 using Planner = std::function<Result<Orders>(
     const dsl::Catalogue& catalogue, const scene::Scene& scene, const PlannerOptions& options)>;

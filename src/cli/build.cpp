@@ -14,6 +14,7 @@
 #include "src/build/cache.h"
 #include "src/build/steps.h"
 #include "src/cli/commands.h"
+#include "src/cli/planned.h"
 #include "src/cli/progress.h"
 
 namespace intaglio::cli {
@@ -82,6 +83,7 @@ Status build_files(const dsl::Catalogue& catalogue, const Options& options) {
     const Result<build::BuildReport> report = [&] {
         ProgressLine progress("built", "variants");
         wanted.progress = std::ref(progress);
+        wanted.planning = planning_line();
         return build::build_scene(catalogue, wanted);
     }();
     if (!report) return report.error();

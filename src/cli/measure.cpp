@@ -85,7 +85,7 @@ Status measure_planned(const dsl::Catalogue& catalogue, const MeasureOptions& op
     }();
     if (!summary) return summary.error();
     const std::filesystem::path folder = std::filesystem::path(options.scene).parent_path();
-    return write_product(
+    Status told = write_product(
         "-",
         fmt::format("{} shaders of {} surfaces on {} cases, {} known from before; to look at "
                     "them:\n  intaglio report {} --maps {} -o report.html\n",
@@ -93,6 +93,8 @@ Status measure_planned(const dsl::Catalogue& catalogue, const MeasureOptions& op
                     report::shell_quoted(options.output),
                     report::shell_quoted(folder.empty() ? "." : folder.string())),
         false);
+    // What could be chosen is measured all the same.
+    return told ? check_satisfied(planned->plan, options.scene) : told;
 }
 
 }  // namespace

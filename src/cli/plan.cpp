@@ -1,8 +1,6 @@
 // `intaglio plan`: which variants a scene needs, and why those.
 #include "src/cli/plan.h"
 
-#include <unistd.h>
-
 #include <chrono>
 #include <memory>
 #include <thread>
@@ -11,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "src/cli/commands.h"
+#include "src/cli/planned.h"
 #include "src/plan/plan.h"
 
 namespace intaglio::cli {
@@ -21,16 +20,6 @@ struct PlanCommand {
     int workers = 0;  // 0: as many as the machine has cores
     bool exhaustive = false, json = false, all = false;
 };
-
-// On a terminal one line that says what is worked on.
-std::function<void(const std::string&, int, int)> progress_line() {
-    if (!isatty(STDERR_FILENO)) return {};
-    return [](const std::string& what, int done, int all) {
-        fmt::print(stderr, "\r\033[K");
-        if (done < all) fmt::print(stderr, "planning {} ({} of {})", what, done + 1, all);
-        std::fflush(stderr);
-    };
-}
 
 Status write_orders(const plan::Plan& plan, const std::filesystem::path& folder) {
     std::error_code error;
@@ -48,26 +37,6 @@ Status write_orders(const plan::Plan& plan, const std::filesystem::path& folder)
     return Done{};
 }
 
-Diagnostic unsatisfied(const plan::Plan& plan, const std::string& scene) {
-    std::size_t left = 0;
-    std::string names;
-    for (const plan::Choice& choice : plan.choices) {
-        if (choice.order) continue;
-        ++left;
-        names +=
-            fmt::format("{}{} on {}", names.empty() ? "" : ", ", choice.surface, choice.target);
-    }
-    Diagnostic error =
-        input_error(std::string(plan::unsatisfied),
-                    fmt::format("{} of {} cannot be right enough within target and budget: {}",
-                                left, plan.choices.size(), names),
-                    scene);
-    error.notes.push_back(
-        "hint: the plan names the best that fits and the cheapest that is right; allow more "
-        "error, a greater budget or another target");
-    return error;
-}
-
 Status plan_command(const dsl::Catalogue& catalogue, const PlanCommand& command) {
     const Result<scene::Scene> scene = scene::read_scene(command.scene, &catalogue);
     if (!scene) return scene.error();
@@ -81,7 +50,7 @@ Status plan_command(const dsl::Catalogue& catalogue, const PlanCommand& command)
     options.exhaustive = command.exhaustive;
     options.surface = command.surface;
     options.target = command.target;
-    options.progress = progress_line();
+    options.progress = planning_line();
     const auto start = std::chrono::steady_clock::now();
     const Result<plan::Plan> plan = plan::plan_scene(catalogue, *scene, options);
     if (!plan) return plan.error();
@@ -93,7 +62,7 @@ Status plan_command(const dsl::Catalogue& catalogue, const PlanCommand& command)
     fmt::print(stderr, "{} variants tried, {} known from before, {:.1f} s\n", plan->tried,
                plan->kept,
                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-    if (!plan->is_satisfied()) return unsatisfied(*plan, command.scene);
+    if (Status status = check_satisfied(*plan, command.scene); !status) return status;
     if (command.orders.empty()) return Done{};
     return write_orders(*plan, command.orders);
 }

@@ -24,6 +24,8 @@ struct SavingsCommand {
 Status savings_command(const dsl::Catalogue& catalogue, const SavingsCommand& command) {
     const Result<PlannedScene> planned = planned_scene(catalogue, command.scene);
     if (!planned) return planned.error();
+    // A table that left surfaces out would say that they cost nothing.
+    if (Status status = check_satisfied(planned->plan, command.scene); !status) return status;
     plan::SavingOptions options{command.size, command.rounds, {}};
     const auto line = std::make_shared<ProgressLine>("drawn", "variants");
     options.progress = [line](const std::string&, int done, int all) { (*line)(done, all); };
@@ -52,8 +54,7 @@ void add_savings(CLI::App& app, const dsl::Catalogue& catalogue, std::function<S
                         "The table, in Markdown; stdout if not given");
     command->add_option("--markdown", options->markdown,
                         "A document whose block 'savings NAME' is written anew");
-    command->add_option("--size", options->size, "Pixels a side")
-        ->check(CLI::Range(8, 2048));
+    command->add_option("--size", options->size, "Pixels a side")->check(CLI::Range(8, 2048));
     command->add_option("--rounds", options->rounds, "Of timing; 0: no times")
         ->check(CLI::Range(0, 1000));
     command->callback([&chosen, &catalogue, options] {

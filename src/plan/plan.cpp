@@ -41,7 +41,7 @@ bool is_asked_for(const std::string& option, const std::string& name) {
 // Its errors point at the surface.
 Status plan_surface(const dsl::Catalogue& catalogue, const scene::Scene& scene,
                     const scene::SceneSurface& surface, const PlanOptions& options, Kept& kept,
-                    const std::function<void(const std::string&)>& step, Plan& plan) {
+                    const std::function<void(const std::string&, bool)>& step, Plan& plan) {
     Site site(catalogue, surface);
     SurfaceWork work{catalogue, surface, scene.read_weight, options, kept, site};
     if (Status status = derive(work); !status) return status;
@@ -49,10 +49,11 @@ Status plan_surface(const dsl::Catalogue& catalogue, const scene::Scene& scene,
         site.aim(i, lowest_of(surface.lights[work.common.lights[i]]));
     work.hit_rays = views_alone(rays_of(surface, work.common.lights, scene.size));
     work.shadow_rays = rays_of(surface, work.common.shadowing, scene.size);
+    step(fmt::format("searches and shadows of {}", surface.name), false);
     if (Status status = climb_ladders(work); !status) return status;
     for (const std::string& target : surface.targets) {
         if (!is_asked_for(options.target, target)) continue;
-        step(fmt::format("{} on {}", surface.name, target));
+        step(fmt::format("{} on {}", surface.name, target), true);
         Result<Choice> choice = choose(work, target);
         if (!choice) return choice.error();
         plan.choices.push_back(std::move(*choice));
@@ -110,9 +111,9 @@ Result<Plan> plan_scene(const dsl::Catalogue& catalogue, const scene::Scene& sce
         if (is_asked_for(options.surface, surface.name))
             for (const std::string& target : surface.targets)
                 all += is_asked_for(options.target, target) ? 1 : 0;
-    const auto step = [&](const std::string& what) {
+    const auto step = [&](const std::string& what, bool is_choice) {
         if (options.progress) options.progress(what, done, all);
-        ++done;
+        done += is_choice ? 1 : 0;
     };
     Kept kept(options.cache);
     for (const scene::SceneSurface& surface : scene.surfaces) {

@@ -92,6 +92,14 @@ TEST_F(SceneCommands, PlanNamesTheNearestTwoWhereNothingIsRight) {
     EXPECT_THAT(built.err, AllOf(HasSubstr("the best that fits: "),
                                  HasSubstr("the cheapest that is right: ")));
     EXPECT_FALSE(fs::exists(path("made"))) << "not even the folder";
+    // What is left out of a table or a measurement is said.
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"savings", path("yard.toml")},
+          std::vector<std::string>{"measure", path("yard.toml"), "-o", path("results")}}) {
+        const Outcome left = ask(command);
+        EXPECT_EQ(left.code, 1) << command[0];
+        EXPECT_THAT(left.err, HasSubstr("[plan-unsatisfied]\n"));
+    }
 }
 
 TEST_F(SceneCommands, MistakesGetASentence) {

@@ -193,17 +193,18 @@ TEST_F(BudgetFile, AWaiverForgivesUpToItsLastDayAndSaysWhenItForgivesNothing) {
 TEST_F(BudgetFile, TheLineThatSpendsMoreIsNamed) {
     const Budgets budgets = read("[limits]\narithmetic = { max_delta = 0 }\n");
     Observation before = observed("ps_2_0", {{"arithmetic", 30}}), now = before;
-    before.lines = {{"march at a.cpp:5", 20}, {"shadow at b.cpp:9", 10}};
-    now.lines = {{"march at a.cpp:5", 20}, {"shadow at b.cpp:9", 14}};
+    before.lines = {{"march at a.cpp:5", 20}, {"shadow at b c.cpp:9", 10}};
+    now.lines = {{"march at a.cpp:5", 20}, {"shadow at b c.cpp:9", 14}};
     now.values["arithmetic"] = 34;
     const Verdict verdict = judge(budgets, {now}, {before}, "2026-01-01");
-    EXPECT_EQ(finding(verdict, "arithmetic")->where, "shadow at b.cpp:9: 14, before 10");
+    EXPECT_EQ(finding(verdict, "arithmetic")->where, "shadow at b c.cpp:9: 14, before 10");
     EXPECT_THAT(to_text(verdict),
                 HasSubstr("over: fur taps=8 on ps_2_0: arithmetic grew from 30 to 34 slots"));
-    EXPECT_THAT(to_github(verdict), HasSubstr("::error file=b.cpp,line=9,title=intaglio check::"));
+    EXPECT_THAT(to_github(verdict),
+                HasSubstr("::error file=b c.cpp,line=9,title=intaglio check::"));
     const auto sarif = nlohmann::json::parse(to_sarif(verdict));
     const auto& place = sarif["runs"][0]["results"][0]["locations"][0]["physicalLocation"];
-    EXPECT_EQ(place["artifactLocation"]["uri"], "b.cpp");
+    EXPECT_EQ(place["artifactLocation"]["uri"], "b%20c.cpp");
     EXPECT_EQ(place["region"]["startLine"], 9);
 }
 
