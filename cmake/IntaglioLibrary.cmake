@@ -75,6 +75,8 @@ function(intaglio_library name)
   target_precompile_headers(intaglio_${name} REUSE_FROM ${headers})
 endfunction()
 
+option(INTAGLIO_SANITIZE_ALL "In a sanitized build also the tests that are marked PLAIN, and all rounds of random ones" OFF)
+
 # Tests compile for minutes and run for seconds; GoogleTest takes longer to read than most of them to compile.
 function(intaglio_test_options target)
   if(NOT TARGET intaglio_test_headers)
@@ -83,9 +85,10 @@ function(intaglio_test_options target)
   endif()
   target_compile_options(${target} PRIVATE ${intaglio_cold_options})
   target_precompile_headers(${target} REUSE_FROM intaglio_test_headers)
+  if(INTAGLIO_SANITIZE_ALL)
+    target_compile_definitions(${target} PRIVATE INTAGLIO_ALL_ROUNDS)  # tests/rounds.h
+  endif()
 endfunction()
-
-option(INTAGLIO_SANITIZE_ALL "In a sanitized build also the tests that are marked PLAIN" OFF)
 
 # intaglio_test(NAME SOURCES a.cpp ... LINKS lib ... [LABEL unit] [PLAIN]): one GoogleTest program, one ctest.
 # PLAIN: left out of sanitized builds, where it takes minutes, unless INTAGLIO_SANITIZE_ALL is on: most of what it runs

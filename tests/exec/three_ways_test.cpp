@@ -12,20 +12,13 @@
 
 #include "generator/target/d3d9/bytecode.h"
 #include "src/measure/interpreted.h"
+#include "tests/rounds.h"
 
 namespace intaglio::exec {
 namespace {
 
 constexpr int size = 32;
 constexpr measure::Direction view{40, 25}, light{35, 130};
-
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool every_profile = false;  // ten times slower: one profile of each model is enough
-#elif defined(__has_feature)
-constexpr bool every_profile = !__has_feature(address_sanitizer);
-#else
-constexpr bool every_profile = true;
-#endif
 
 struct Case {
     std::string surface;
@@ -92,7 +85,8 @@ std::vector<Wanted> generated() {
     for (const Case& one : cases)
         for (const char* profile : {"2_0", "2_a", "2_b", "3_0"})
             if (one.fits.find(profile) != std::string::npos &&
-                (every_profile || profile[0] == '3' || profile[2] == '0'))
+                // Sanitized, one profile of each model is enough.
+                (all_rounds || profile[0] == '3' || profile[2] == '0'))
                 all.push_back({&one, fmt::format("ps_{}", profile)});
     const dsl::Catalogue catalogue = templates::all_techniques();
     std::atomic<std::size_t> next = 0;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "generator/target/d3d9/ops.h"
+#include "tests/rounds.h"
 #include "tests/unit/d3d9/dice.h"
 #include "tests/unit/d3d9/random_shader.h"
 
@@ -67,7 +68,7 @@ TEST(Assembly, AStepCannotPassForAUniform) {
 
 TEST(Assembly, RandomShadersReadBackEqual) {
     for (const Profile profile : every_profile)
-        for (std::uint32_t seed = 0; seed < 500; ++seed) {
+        for (std::uint32_t seed = 0; seed < rounds(500u); ++seed) {
             const Shader shader = random_shader(seed, profile);
             const std::string text = print(shader, {.comments = seed % 2 == 0});
             const auto again = parse(text, "random.asm");
@@ -81,7 +82,7 @@ TEST(Assembly, RandomShadersReadBackEqual) {
 TEST(Assembly, FloatsReadBackToTheBit) {
     Dice dice(7);
     Shader shader;
-    for (int i = 0; i < 50000; ++i)
+    for (int i = 0; i < rounds(50000); ++i)
         shader.definitions.push_back(
             {File::Const,
              i % 32,

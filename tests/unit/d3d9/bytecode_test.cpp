@@ -8,6 +8,7 @@
 #include "generator/target/d3d9/assembly.h"
 #include "generator/target/d3d9/constant_table.h"
 #include "generator/target/d3d9/ops.h"
+#include "tests/rounds.h"
 #include "tests/unit/d3d9/dice.h"
 #include "tests/unit/d3d9/random_shader.h"
 
@@ -70,7 +71,7 @@ TEST(Bytecode, IsThatOfDirect3DsAssembler) {
 
 TEST(Bytecode, RandomShadersDecodeEqual) {
     for (const Profile profile : every_profile)
-        for (std::uint32_t seed = 0; seed < 1000; ++seed) {
+        for (std::uint32_t seed = 0; seed < rounds(1000u); ++seed) {
             const Shader shader = random_shader(seed, profile);
             const auto again = decode(encode(shader));
             ASSERT_TRUE(again) << name_of(profile) << " seed " << seed << "\n"

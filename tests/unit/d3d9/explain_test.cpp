@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "generator/target/d3d9/assembly.h"
+#include "tests/rounds.h"
 #include "tests/unit/d3d9/random_shader.h"
 
 namespace intaglio::d3d9 {
@@ -47,7 +48,7 @@ TEST(Explain, ChargesStepsAndLinesAndNamesReads) {
 }
 
 TEST(Explain, SumsAreTheShaders) {
-    for (std::uint32_t seed = 1; seed <= 300; ++seed)
+    for (std::uint32_t seed = 1; seed <= rounds(300u); ++seed)
         for (const Profile profile : every_profile) {
             Shader shader = random_legal_shader(seed, profile);
             shader.files = {"a.cpp", "b.cpp"};

@@ -18,6 +18,7 @@
 #include "generator/target/d3d9/interpret.h"
 #include "generator/target/d3d9/legality.h"
 #include "generator/target/d3d9/ops.h"
+#include "tests/rounds.h"
 #include "tests/unit/d3d9_generate/comparison.h"
 #include "tests/unit/d3d9_generate/surfaces.h"
 
@@ -348,7 +349,7 @@ class RandomLoops {
 // The numbers are whole, so results agree to the bit.
 TEST(Flow, ComputesRandomModules) {
     int loops = 0, compared = 0;
-    for (unsigned seed = 1; seed <= 50; ++seed) {
+    for (unsigned seed = 1; seed <= rounds(50u); ++seed) {
         SCOPED_TRACE(seed);
         ir::Program program;
         program.pixel = RandomLoops(seed).make();
@@ -398,8 +399,8 @@ TEST(Flow, ComputesRandomModules) {
             ++compared;
         }
     }
-    EXPECT_GE(loops, 100);
-    EXPECT_GE(compared, 900);
+    EXPECT_GE(loops, rounds(60));
+    EXPECT_GE(compared, rounds(900));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "generator/ir/print.h"
 #include "generator/ir/verify.h"
 #include "templates/all_techniques.h"
+#include "tests/rounds.h"
 
 namespace intaglio::dsl {
 namespace {
@@ -136,9 +137,11 @@ TEST(Split, IsReadAndWritten) {
 
 TEST(Split, EveryPassOfEverySurfaceIsAProgram) {
     const Catalogue catalogue = templates::all_techniques();
+    int at = 0;
     for (const auto& search : catalogue.searches)
         for (const auto& shadow : catalogue.shadows)
             for (const std::string& split : splits()) {
+                if (at++ % stride != 0) continue;
                 const Surface surface =
                     surface_named("search=" + search.name + ",shadow=" + shadow.name);
                 const Split cuts = *parse_split(split);
@@ -174,7 +177,7 @@ TEST(Split, CutsBeforeShadowAndShadingKeepEveryBit) {
         for (const std::string split : {"shading", "shadow", "shadow,shading"}) {
             const std::vector<ir::Program> passes = passes_of(surface, split);
             std::mt19937 random(seed);
-            for (int i = 0; i < 200; ++i) {
+            for (int i = 0; i < rounds(200); ++i) {
                 const Pixel pixel = random_pixel(random);
                 EXPECT_EQ(run({whole}, pixel, maps), run(passes, pixel, maps))
                     << text << " " << split << ", pixel " << i << " of seed " << seed;
@@ -203,7 +206,7 @@ TEST(Split, SeveralLightsKeepEveryBitOrAreRefused) {
         for (const std::string& split : a_case.splits) {
             const std::vector<ir::Program> passes = passes_of(surface, split);
             std::mt19937 random(seed);
-            for (int i = 0; i < 50; ++i) {
+            for (int i = 0; i < rounds(50); ++i) {
                 const Pixel pixel = random_pixel(random);
                 EXPECT_EQ(run({whole}, pixel, maps), run(passes, pixel, maps))
                     << surface.name << " " << split << ", pixel " << i << " of seed " << seed;
@@ -227,7 +230,7 @@ TEST(Split, ACoordinateNearZeroMovesByOneRounding) {
     const ir::Program whole = *record_surface(surface, {"glsl_450", {}, false});
     const std::vector<ir::Program> passes = passes_of(surface, "shading");
     std::mt19937 random(seed);
-    for (int i = 0; i < 500; ++i) {
+    for (int i = 0; i < rounds(500); ++i) {
         Pixel pixel = random_pixel(random);
         pixel.uv = {pixel.uv[0] / 64, pixel.uv[1] / 1024};
         const auto expected = run({whole}, pixel, maps), actual = run(passes, pixel, maps);
@@ -263,7 +266,7 @@ TEST(Split, SectionsOfAMarchAreTheLongerMarch) {
                 passes_of(surface_named(text, knobs(taps)), fmt::format("sections={}", sections));
             std::mt19937 random(seed);
             int far = 0;
-            constexpr int pixels = 1000;
+            constexpr int pixels = rounds(1000);
             for (int i = 0; i < pixels; ++i) {
                 const Pixel pixel = random_pixel(random);
                 const auto expected = run({whole}, pixel, maps), actual = run(passes, pixel, maps);

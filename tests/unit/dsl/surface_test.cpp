@@ -10,6 +10,7 @@
 #include "generator/ir/print.h"
 #include "generator/ir/verify.h"
 #include "templates/all_techniques.h"
+#include "tests/rounds.h"
 
 namespace intaglio::dsl {
 namespace {
@@ -112,7 +113,9 @@ TEST(Surface, NamesOfKnobsAreUniqueInEverySurface) {
 }
 
 TEST(Surface, EveryKnobWorksAtBothEndsOfItsRange) {
-    for (const std::string& text : compositions()) {
+    const std::vector<std::string> all = compositions();
+    for (std::size_t at = 0; at < all.size(); at += stride) {
+        const std::string& text = all[at];
         const Result<Surface> probe = make_surface(catalogue(), text);
         for (std::size_t i = 0; i < probe->knobs().size(); ++i)
             for (bool most : {false, true}) {

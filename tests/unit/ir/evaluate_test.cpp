@@ -10,6 +10,7 @@
 #include "generator/ir/parse.h"
 #include "generator/ir/print.h"
 #include "generator/ir/verify.h"
+#include "tests/rounds.h"
 #include "tests/unit/ir/random_environment.h"
 #include "tests/unit/ir/random_module.h"
 
@@ -77,7 +78,7 @@ double operand(float value) {
 TEST(EvaluateOp, RoundsOnceAndFlushesDenormals) {
     constexpr std::uint64_t seed = 5;
     Random random(seed);
-    for (int i = 0; i < 50000; ++i) {
+    for (int i = 0; i < rounds(50000); ++i) {
         float a = random.any_float(), b = random.any_float();
         if (i % 3 == 0)
             a = std::ldexp(1.0f + random.unit(), random.between(-70, -55)),
@@ -186,7 +187,7 @@ TEST(Evaluator, AgreesWithEvaluateOp) {
     options.max_depth = 0;
     options.samples = options.derivatives = false;
     int compared = 0;
-    for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    for (std::uint64_t seed = 0; seed < rounds(1000u); ++seed) {
         const Module module = testing::random_module(seed, options);
         const auto environment = testing::random_environment(module, seed).environment;
         std::map<ValueId, ConstantBits> values;
@@ -238,7 +239,7 @@ TEST(Evaluator, AgreesWithEvaluateOp) {
             }
         }
     }
-    EXPECT_GT(compared, 2500);
+    EXPECT_GT(compared, rounds(2500));
 }
 
 TEST(Evaluator, CarriesLoopValuesAllAtOnce) {
@@ -358,7 +359,7 @@ TEST(Evaluator, KeepsDenormalsInDouble) {
 // text.
 TEST(Evaluator, RunsEveryRandomModule) {
     long reads = 0, instructions = 0;
-    for (std::uint64_t seed = 0; seed < 800; ++seed) {
+    for (std::uint64_t seed = 0; seed < rounds(800u); ++seed) {
         const Module module = testing::random_module(seed, {.instructions = 80});
         const auto environment = testing::random_environment(module, seed);
         const Evaluator evaluator(module), again(*parse(print(module), "again.ir"));
@@ -372,8 +373,8 @@ TEST(Evaluator, RunsEveryRandomModule) {
             instructions += first.instructions;
         }
     }
-    EXPECT_GT(reads, 400);
-    EXPECT_GT(instructions, 40000);
+    EXPECT_GT(reads, rounds(400));
+    EXPECT_GT(instructions, rounds(40000));
 }
 
 }  // namespace

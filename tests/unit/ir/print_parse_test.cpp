@@ -8,6 +8,7 @@
 #include "generator/ir/parse.h"
 #include "generator/ir/print.h"
 #include "generator/ir/verify.h"
+#include "tests/rounds.h"
 #include "tests/unit/ir/random_module.h"
 
 namespace intaglio::ir {
@@ -84,7 +85,7 @@ TEST(Print, WritesEachFloatSoThatItReadsBackToItsBits) {
 
 TEST(Parse, UndoesPrintOnRandomModules) {
     int loops = 0;
-    for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+    for (std::uint64_t seed = 0; seed < rounds(2000u); ++seed) {
         testing::RandomModuleOptions options;
         options.instructions = 5 + static_cast<int>(seed % 90);
         const Module module = random_module(seed, options);
@@ -98,7 +99,7 @@ TEST(Parse, UndoesPrintOnRandomModules) {
         ASSERT_EQ(print(*again), text) << "seed " << seed;
         loops += text.find(" = loop ") != std::string::npos ? 1 : 0;
     }
-    EXPECT_GT(loops, 500);  // otherwise the generator has stopped testing regions
+    EXPECT_GT(loops, rounds(500));  // otherwise the generator has stopped testing regions
 }
 
 TEST(Parse, TakesTextWrittenByHand) {

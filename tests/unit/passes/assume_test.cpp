@@ -11,6 +11,7 @@
 #include "generator/passes/assume.h"
 #include "generator/passes/range_analysis.h"
 #include "generator/passes/rewrite.h"
+#include "tests/rounds.h"
 #include "tests/unit/ir/random_module.h"
 #include "tests/unit/passes/environment.h"
 
@@ -67,7 +68,7 @@ bool holds(const Range& range, double x) {
 TEST(RangeAnalysis, EveryOpStaysWithinItsBounds) {
     Random random(1);
     int decided = 0;
-    for (int round = 0; round < 6000; ++round) {
+    for (int round = 0; round < rounds(6000); ++round) {
         const auto& rows = all_ops();
         const OpInfo& row =
             rows[static_cast<std::size_t>(random.below(static_cast<int>(rows.size())))];
@@ -137,7 +138,7 @@ TEST(RangeAnalysis, EveryOpStaysWithinItsBounds) {
         }
         if (bounds[0].single() || std::isfinite(bounds[0].least)) ++decided;
     }
-    EXPECT_GT(decided, 1000) << "hardly anything is bounded: the test shows little";
+    EXPECT_GT(decided, rounds(1000)) << "hardly anything is bounded: the test shows little";
 }
 
 // --- modules
@@ -250,7 +251,7 @@ TEST(Assume, KeepsWhatRandomModulesComputeWhereItHolds) {
     const Textures textures(1);
     std::size_t left_out = 0;
     int shortened = 0;
-    for (std::uint64_t seed = 1; seed <= 800; ++seed) {
+    for (std::uint64_t seed = 1; seed <= rounds(800u); ++seed) {
         SCOPED_TRACE(fmt::format("seed {}", seed));
         Program before = random_program(seed);
         Random random(seed);
@@ -275,14 +276,14 @@ TEST(Assume, KeepsWhatRandomModulesComputeWhereItHolds) {
                 << fmt::format("{}", fmt::join(to_strings(experiment.known), "\n"));
         }
     }
-    EXPECT_GT(left_out, 500u) << "hardly anything was decided: the test shows little";
-    EXPECT_GT(shortened, 50) << "hardly any loop was shortened";
+    EXPECT_GT(left_out, rounds(500u)) << "hardly anything was decided: the test shows little";
+    EXPECT_GT(shortened, rounds(50)) << "hardly any loop was shortened";
 }
 
 // Loops run iteration by iteration, and entered once for all.
 TEST(RangeAnalysis, EveryValueOfRandomModulesStaysWithinItsBounds) {
     const Textures textures(1);
-    for (std::uint64_t seed = 1; seed <= 600; ++seed) {
+    for (std::uint64_t seed = 1; seed <= rounds(600u); ++seed) {
         Program program = random_program(seed);
         Random random(seed);
         const Experiment experiment = random_experiment(random, program, textures, false);

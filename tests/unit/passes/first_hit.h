@@ -14,6 +14,7 @@
 #include "generator/passes/pipeline.h"
 #include "generator/passes/rewrite.h"
 #include "templates/all_techniques.h"
+#include "tests/rounds.h"
 #include "tests/unit/passes/environment.h"
 
 namespace intaglio::passes::testing {
@@ -108,7 +109,7 @@ inline void expect_same(const Module& before, const Module& after, std::uint64_t
     const Evaluator original(before), lowered(after);
     for (int map = 0; map < 12; ++map) {
         const Texture texture = height_field(random, maps == Maps::WithOdd && map % 4 == 3);
-        for (int i = 0; i < count; ++i) {
+        for (int i = 0; i < rounds(count); ++i) {
             const Environment environment = view(random, before, texture);
             const Evaluation a = original.run(environment, Precision::Single);
             const Evaluation b = lowered.run(adapt(environment, before, after), Precision::Single);

@@ -9,6 +9,7 @@
 #include "generator/passes/pipeline.h"
 #include "generator/passes/remove_unused_interpolants.h"
 #include "generator/passes/rewrite.h"
+#include "tests/rounds.h"
 #include "tests/unit/passes/environment.h"
 
 namespace intaglio::passes {
@@ -155,7 +156,7 @@ int interpolated_components(const Module& pixel) {
 
 TEST(HoistToVertex, KeepsThePicture) {
     std::size_t moved = 0;
-    for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    for (std::uint64_t seed = 1; seed <= rounds(400u); ++seed) {
         SCOPED_TRACE(fmt::format("seed {}", seed));
         Random random(seed);
         const Program before = random_program(random);
@@ -178,11 +179,11 @@ TEST(HoistToVertex, KeepsThePicture) {
         EXPECT_EQ(print(again.pixel), print(optimized.pixel));
         EXPECT_EQ(print(again.vertex), print(optimized.vertex));
     }
-    EXPECT_GT(moved, 300u) << "hardly anything moved: the test shows little";
+    EXPECT_GT(moved, rounds(300u)) << "hardly anything moved: the test shows little";
 }
 
 TEST(HoistToVertex, ObeysTheLimits) {
-    for (std::uint64_t seed = 1; seed <= 100; ++seed)
+    for (std::uint64_t seed = 1; seed <= rounds(100u); ++seed)
         for (const InterpolantLimits& limits :
              {InterpolantLimits{3, 32}, InterpolantLimits{8, 9}}) {
             Random random(seed);
@@ -215,7 +216,7 @@ TEST(HoistToVertex, SaysWhyItCannot) {
 }
 
 TEST(RemoveUnusedInterpolants, KeepsThePicture) {
-    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    for (std::uint64_t seed = 1; seed <= rounds(100u); ++seed) {
         Random random(seed);
         const Program before = random_program(random);
         Program after = before;

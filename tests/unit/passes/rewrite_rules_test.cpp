@@ -10,6 +10,7 @@
 #include "generator/passes/fold_constants.h"
 #include "generator/passes/remove_dead_code.h"
 #include "generator/passes/rewrite_rules.h"
+#include "tests/rounds.h"
 #include "tests/unit/passes/environment.h"
 
 namespace intaglio::passes {
@@ -135,7 +136,7 @@ std::string counterexample(const RewriteRule& rule, Type type) {
     const Side left(rule.left, type, result), right(rule.right, type, result);
     const Evaluator left_evaluator(left.module()), right_evaluator(right.module());
     Random random(7);
-    for (int round = 0; round < 4; ++round) {
+    for (int round = 0; round < rounds(4); ++round) {
         const std::vector<double> values = interesting_values(type.scalar, random);
         for (double a : values)
             for (double b : values)
@@ -219,7 +220,7 @@ TEST(RewriteRules, DivisionByPowersOfTwo) {
                                  [&](const Instruction& i) { divides |= i.op == Op::Div; });
             EXPECT_EQ(divides, exponent == 127) << "2^-127 is a denormal; exponent " << exponent;
             Random random(static_cast<std::uint64_t>(exponent + 200));
-            for (int i = 0; i < 200; ++i) {
+            for (int i = 0; i < rounds(200); ++i) {
                 Environment environment;
                 environment.inputs = {random_vector(random, float1)};
                 ASSERT_EQ(difference(Evaluator(module).run(environment, Precision::Single),

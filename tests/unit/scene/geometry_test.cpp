@@ -1,6 +1,7 @@
 // Ranges over a surface against brute force: whatever a random camera or light truly shows lies in
 // its range, and without targets the range is no wider than what occurs.
 #include "src/scene/geometry.h"
+#include "tests/rounds.h"
 
 #include <gtest/gtest.h>
 
@@ -98,7 +99,7 @@ void expect_held(const Ranges& ranges, const Sample& sample, unsigned seed) {
 }
 
 TEST(SceneCamera, WhateverTheCameraSeesIsInTheRange) {
-    for (unsigned seed = 1; seed <= 300; ++seed) {
+    for (unsigned seed = 1; seed <= rounds(300u); ++seed) {
         Dice dice(seed);
         const Place place = dice.place();
         Camera camera;
@@ -173,7 +174,7 @@ TEST(SceneCamera, TheRangeIsNoWiderThanWhatIsSeen) {
 
 TEST(SceneCamera, WhatIsInThePictureIsInTheRangeAndTheRestMayNotBe) {
     int narrower = 0, seen = 0;
-    for (unsigned seed = 1; seed <= 100; ++seed) {
+    for (unsigned seed = 1; seed <= rounds(100u); ++seed) {
         Dice dice(seed);
         const Place place = dice.place();
         Camera camera;
@@ -208,8 +209,8 @@ TEST(SceneCamera, WhatIsInThePictureIsInTheRangeAndTheRestMayNotBe) {
                     ranges->elevation.most < all->elevation.most - 1))
             ++narrower;
     }
-    EXPECT_GT(seen, 1000);
-    EXPECT_GT(narrower, 20);
+    EXPECT_GT(seen, rounds(1000));
+    EXPECT_GT(narrower, rounds(20));
 }
 
 TEST(SceneCamera, BehindThePolygonNothingIsSeen) {
@@ -243,7 +244,7 @@ TEST(SceneCamera, StraightAboveAndFromOneSide) {
 }
 
 TEST(SceneLight, ALampIsInTheRangeFromEveryPoint) {
-    for (unsigned seed = 1; seed <= 300; ++seed) {
+    for (unsigned seed = 1; seed <= rounds(300u); ++seed) {
         Dice dice(seed);
         const Place place = dice.place();
         const Point lamp = dice.point(5);
@@ -260,7 +261,7 @@ TEST(SceneLight, ALampIsInTheRangeFromEveryPoint) {
 }
 
 TEST(SceneLight, ASunIsInTheRangeAndTheRangeIsTight) {
-    for (unsigned seed = 1; seed <= 300; ++seed) {
+    for (unsigned seed = 1; seed <= rounds(300u); ++seed) {
         Dice dice(seed);
         const Place place = dice.place();
         const double low = dice.real(-90, 90), from = dice.real(-360, 0);

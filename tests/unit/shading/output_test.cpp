@@ -2,6 +2,7 @@
 // kept.
 #include <gmock/gmock.h>
 
+#include "tests/rounds.h"
 #include "tests/unit/shading/pixel.h"
 
 #include "generator/ir/parse.h"
@@ -82,7 +83,7 @@ TEST(Depth, IsThatOfAPolygonThroughThePoint) {
     // On a flat map of height h every ray meets the plane z = -(1 - h) scale.
     Random random(reference::witness::seed());
     int asked = 0;
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < rounds(300); ++i) {
         const double h = static_cast<float>(random.real(0, 1));
         const HeightField field = field_of(8, 8, [&](double, double) { return h; });
         Draw draw{field, {random.real(0, 1), random.real(0, 1)}};
@@ -105,7 +106,7 @@ TEST(Depth, IsThatOfAPolygonThroughThePoint) {
         EXPECT_NEAR(Depth("parallax_occlusion", field, {{"page_depth", "1"}})(draw, camera),
                     1 / (outside + outside * along), 1e-6);
     }
-    EXPECT_GT(asked, 50);
+    EXPECT_GT(asked, rounds(50));
 }
 
 TEST(Depth, OfBumpMappingIsThePolygons) {
@@ -174,9 +175,11 @@ TEST(Knobs, OfEveryPartWorkAtBothEndsOnTargetsWithLoops) {
     for (const auto& row : catalogue.shadings)
         surfaces.push_back("search=none,shading=" + row.name);
     for (const auto& row : catalogue.outputs) surfaces.push_back("search=none,output=" + row.name);
+    int at = 0;
     for (const std::string& text : surfaces)
         for (std::size_t i = 0; i < surface_named(text).knobs().size(); ++i)
             for (bool most : {false, true}) {
+                if (at++ % stride != 0) continue;
                 const dsl::Surface surface = surface_named(text);
                 dsl::KnobBase* knob = surface.knobs()[i];
                 ASSERT_TRUE(knob->set(most ? knob->most() : knob->least()).ok());
@@ -230,6 +233,7 @@ TEST(DepthAndClip, AreSaidByEveryTargetThatCan) {
     int said = 0;
     for (const Target* target : all_targets()) {
         if (!target->derived_from.empty() || target->name == "none") continue;
+        if (!all_rounds && target->name.starts_with("ps_2_")) continue;  // ps_3_0 has all of it
         const Result<Emitted> emitted = emit(*program, *target);
         if (!target->pixel_stage) {
             EXPECT_TRUE(emitted.ok()) << target->name << " has no pixels to drop";
@@ -250,7 +254,7 @@ TEST(DepthAndClip, AreSaidByEveryTargetThatCan) {
                                                                      : "gl_FragDepth"));
         ++said;
     }
-    EXPECT_GE(said, 12);
+    EXPECT_GE(said, all_rounds ? 12 : 10);
 }
 
 TEST(DepthAndClip, AreVerified) {

@@ -9,6 +9,7 @@
 #include "generator/target/clike/layout.h"
 #include "generator/target/clike/literals.h"
 #include "generator/target/clike/names.h"
+#include "tests/rounds.h"
 #include "tests/unit/ir/random.h"
 
 namespace intaglio::clike {
@@ -22,7 +23,7 @@ TEST(Literals, ReadBackToTheSameBits) {
                             .rolled_loop = {},
                             .precise = {}};
     ir::testing::Random random(42);
-    for (int i = 0; i < 100000; ++i) {
+    for (int i = 0; i < rounds(100000); ++i) {
         const float value = random.any_float();
         const auto bits = std::bit_cast<std::uint32_t>(value);
         const std::string text = *float_literal(bits, spelling);

@@ -9,6 +9,7 @@
 #include "generator/ir/print.h"
 #include "generator/ir/verify.h"
 #include "generator/target/replace_int_functions.h"
+#include "tests/rounds.h"
 #include "tests/unit/ir/random_environment.h"
 #include "tests/unit/ir/random_module.h"
 #include "tests/unit/target/interpreter.h"
@@ -194,7 +195,7 @@ class Shuffles {
 };
 
 TEST(RandomText, KeepsCarriedValuesApart) {
-    for (std::uint64_t seed = 1; seed <= 1500; ++seed) {
+    for (std::uint64_t seed = 1; seed <= rounds(1500u); ++seed) {
         const ir::Module module = Shuffles(seed).make();
         ASSERT_TRUE(ir::verify(module).ok()) << to_string(ir::verify(module).error());
         const auto artifact =
@@ -209,7 +210,7 @@ TEST(RandomText, KeepsCarriedValuesApart) {
 TEST(RandomText, ComputesWhatTheModuleComputesBeforeAnyPass) {
     RandomModuleOptions options;
     options.samples = options.derivatives = false;
-    for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    for (std::uint64_t seed = 1; seed <= rounds(400u); ++seed) {
         options.instructions = 10 + static_cast<int>(seed % 60);
         const ir::Module module = plain_module(seed * 1000, options);
         const auto artifact =
@@ -224,7 +225,7 @@ TEST(RandomText, ComputesWhatTheModuleComputesBeforeAnyPass) {
 TEST(RandomText, ComputesWhatTheModuleComputesAfterThePasses) {
     RandomModuleOptions options;
     options.samples = options.derivatives = false;
-    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+    for (std::uint64_t seed = 1; seed <= rounds(150u); ++seed) {
         options.instructions = 20 + static_cast<int>(seed % 60);
         const ir::Module module = plain_module(seed * 77777, options);
         const Artifact artifact =
@@ -239,7 +240,7 @@ TEST(ReplaceIntFunctions, KeepsEveryValue) {
     RandomModuleOptions options;
     options.samples = options.derivatives = false;
     int replaced = 0;
-    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    for (std::uint64_t seed = 1; seed <= rounds(200u); ++seed) {
         options.instructions = 60;
         const ir::Module module = plain_module(seed * 4242, options);
         ir::Module after = module;
@@ -258,7 +259,7 @@ TEST(ReplaceIntFunctions, KeepsEveryValue) {
                 ASSERT_EQ(wanted, got) << "seed " << seed << "\n" << ir::print(after);
             }
     }
-    EXPECT_GT(replaced, 20);
+    EXPECT_GT(replaced, rounds(20));
 }
 
 TEST(RandomText, EveryWitnessAcceptsEveryLanguage) {
