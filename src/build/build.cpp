@@ -152,11 +152,20 @@ Result<BuildReport> build_locked(const dsl::Catalogue& catalogue, const BuildOpt
 Result<scene::Scene> scene_of(const dsl::Catalogue& catalogue, const BuildOptions& options) {
     Result<scene::Scene> scene = scene::read_scene(options.scene, &catalogue);
     if (!scene) return scene;
+    std::set<std::string> seen;
     for (const std::string& name : options.targets) {
-        if (find_target(name) != nullptr) continue;
+        const Target* target = find_target(name);
+        if (!seen.insert(name).second)
+            return input_error("unknown-target", fmt::format("the target {} is named twice", name));
+        if (target != nullptr && target->pixel_stage && is_judged(*target)) continue;
         std::vector<std::string> names;
-        for (const Target* target : all_targets()) names.emplace_back(target->name);
-        return input_error("unknown-target", unknown_name_sentence("target", name, names));
+        for (const Target* each : all_targets())
+            if (each->pixel_stage && is_judged(*each)) names.emplace_back(each->name);
+        return input_error(
+            "unknown-target",
+            target != nullptr && !target->pixel_stage
+                ? fmt::format("{} has no pixel stage; name the pixel shaders' profile", name)
+                : unknown_name_sentence("target", name, names));
     }
     if (!options.targets.empty())
         for (scene::SceneSurface& surface : scene->surfaces) surface.targets = options.targets;

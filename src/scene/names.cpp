@@ -44,6 +44,18 @@ constexpr std::string_view words_of_cpp[] = {"alignas",       "alignof",     "an
                                              "volatile",      "wchar_t",     "while",
                                              "xor",           "xor_eq"};
 
+// Names of the language's own headers (NAME.h would be found in their place), of what they define
+// as macros or what a program has, and of Windows' devices (which no file can have).  In lower
+// case.
+constexpr std::string_view taken[] = {
+    "assert",  "aux",    "com1",   "com2",     "com3",     "com4",      "complex",
+    "con",     "ctype",  "errno",  "fenv",     "inttypes", "iso646",    "limits",
+    "linux",   "locale", "lpt1",   "lpt2",     "lpt3",     "lpt4",      "main",
+    "malloc",  "math",   "memory", "nul",      "null",     "posix",     "prn",
+    "setjmp",  "signal", "std",    "stdalign", "stdarg",   "stdatomic", "stdbool",
+    "stddef",  "stdint", "stdio",  "stdlib",   "string",   "strings",   "tgmath",
+    "threads", "time",   "uchar",  "unistd",   "unix",     "wchar",     "wctype"};
+
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
 struct Row {
@@ -93,6 +105,12 @@ std::vector<std::pair<std::string, Position>> read_names(Reader& reader, const V
     return names;
 }
 
+std::string in_lower_case(std::string name) {
+    for (char& c : name)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return name;
+}
+
 std::string wrong_identifier(const std::string& name) {
     const bool letters = std::all_of(name.begin(), name.end(),
                                      [](char c) { return is_letter(c) || (c >= '0' && c <= '9'); });
@@ -103,6 +121,20 @@ std::string wrong_identifier(const std::string& name) {
             name);
     if (std::find(std::begin(words_of_cpp), std::end(words_of_cpp), name) != std::end(words_of_cpp))
         return fmt::format("'{}' is a word of C++, and types are named after it", name);
+    return {};
+}
+
+std::string wrong_surface_name(const std::string& name) {
+    if (std::string wrong = wrong_identifier(name); !wrong.empty()) return wrong;
+    const bool capital = name.size() > 1 && name[0] == '_' && name[1] >= 'A' && name[1] <= 'Z';
+    if (capital || name.find("__") != std::string::npos)
+        return fmt::format(
+            "'{}' is a name that C++ keeps for itself: two underscores, or one before a capital",
+            name);
+    if (std::find(std::begin(taken), std::end(taken), in_lower_case(name)) != std::end(taken))
+        return fmt::format(
+            "'{0}' is taken: {0}.h or a namespace {0} would stand in the way of the system's own",
+            name);
     return {};
 }
 

@@ -21,6 +21,11 @@ std::vector<std::pair<std::string, Position>> read_names(Reader& reader, const V
 
 // Why it is no identifier of C++ that may name files and types; empty where it is one.
 std::string wrong_identifier(const std::string& name);
+// The same of one that names a header and a namespace as well.
+std::string wrong_surface_name(const std::string& name);
+
+// Of ASCII letters, as file systems compare names that ignore case.
+std::string in_lower_case(std::string name);
 
 // Refuses pinned techniques that the catalogue does not have, code "unknown-technique", and knobs
 // that none of the techniques left to choose from has, code "unknown-knob".

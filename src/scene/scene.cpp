@@ -126,12 +126,17 @@ void read_name(Reader& reader, const Value& table, bool known, const std::vector
         return;
     }
     if (member->value.kind != Kind::String) return;
-    if (const std::string wrong = wrong_identifier(surface.name); !wrong.empty())
+    if (const std::string wrong = wrong_surface_name(surface.name); !wrong.empty())
         reader.refuse(member->value.position, "scene-name", wrong);
     for (const Entry& other : others)
-        if (other.surface.name == surface.name)
-            reader.refuse(member->value.position, "scene-name",
-                          fmt::format("two surfaces are called '{}'", surface.name));
+        if (in_lower_case(other.surface.name) == in_lower_case(surface.name))
+            reader.refuse(
+                member->value.position, "scene-name",
+                other.surface.name == surface.name
+                    ? fmt::format("two surfaces are called '{}'", surface.name)
+                    : fmt::format("two surfaces are called '{}' and '{}', and some systems take "
+                                  "their files for one",
+                                  other.surface.name, surface.name));
 }
 
 Entry read_surface(Reader& reader, const Value& table, const Common& common,

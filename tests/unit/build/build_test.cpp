@@ -189,6 +189,12 @@ TEST_F(Build, RefusesWithACodeAndLeavesTheFolderAsItWas) {
     BuildOptions wanted = options();
     wanted.targets = {"ps_4_0"};
     EXPECT_EQ(refusal(wanted), "unknown-target");
+    // No pixel stage, nobody who judges it, twice.
+    for (const std::vector<std::string>& targets :
+         {std::vector<std::string>{"vs_2_0"}, {"none"}, {"ps_2_b", "ps_2_b"}}) {
+        wanted.targets = targets;
+        EXPECT_EQ(refusal(wanted), "unknown-target") << targets[0];
+    }
     wanted = options();
     wanted.name_space = "no good";
     EXPECT_EQ(refusal(wanted), "namespace-syntax");
