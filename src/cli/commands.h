@@ -30,8 +30,6 @@ struct KnownOptions {
     std::vector<std::string> fixed;    // "scale=0.05", "ambient=0.1,0.1,0.1"
     std::vector<std::string> assumed;  // "view.z=0.25..1"
 };
-// Error "known-syntax".
-Result<passes::Known> known_of(const KnownOptions& options);
 
 // What names a variant, on every command that takes one.
 struct VariantOptions {

@@ -5,81 +5,14 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include "src/cli/commands.h"
 #include "src/maps/files.h"
+#include "src/variant/known_text.h"
 
 namespace intaglio::cli {
-
-namespace {
-
-// All of the text, or nothing.
-std::optional<float> number_in(std::string_view text) {
-    float number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number))
-        return {};
-    return number;
-}
-
-// "name=rest" in two; nothing if either is empty.
-std::optional<std::pair<std::string, std::string>> halves_of(const std::string& text) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) return {};
-    return std::pair{text.substr(0, equals), text.substr(equals + 1)};
-}
-
-std::optional<std::vector<float>> numbers_in(std::string_view text) {
-    std::vector<float> numbers;
-    for (std::size_t start = 0; start <= text.size();) {
-        const std::size_t comma = std::min(text.find(',', start), text.size());
-        const std::optional<float> number = number_in(text.substr(start, comma - start));
-        if (!number) return {};
-        numbers.push_back(*number);
-        start = comma + 1;
-    }
-    return numbers;
-}
-
-// "0.25..1", or "0.5" for both ends.
-std::optional<passes::Interval> interval_in(std::string_view text) {
-    const std::size_t dots = text.find("..");
-    const std::optional<float> least = number_in(text.substr(0, dots));
-    const std::optional<float> most =
-        dots == std::string_view::npos ? least : number_in(text.substr(dots + 2));
-    if (!least || !most) return {};
-    return passes::Interval{*least, *most};
-}
-
-}  // namespace
-
-Result<passes::Known> known_of(const KnownOptions& options) {
-    passes::Known known;
-    const auto twice = [](const std::string& name) {
-        return input_error("known-syntax", fmt::format("two values of {} are given", name));
-    };
-    for (const std::string& text : options.fixed) {
-        const auto halves = halves_of(text);
-        const auto numbers = halves ? numbers_in(halves->second) : std::nullopt;
-        if (!numbers)
-            return input_error(
-                "known-syntax",
-                fmt::format("'{}' is not of the form scale=0.05 or ambient=0.1,0.1,0.1", text));
-        if (!known.uniforms.emplace(halves->first, *numbers).second) return twice(halves->first);
-    }
-    for (const std::string& text : options.assumed) {
-        const auto halves = halves_of(text);
-        const auto interval = halves ? interval_in(halves->second) : std::nullopt;
-        if (!interval)
-            return input_error("known-syntax",
-                               fmt::format("'{}' is not of the form view.z=0.25..1", text));
-        if (!known.ranges.emplace(halves->first, *interval).second) return twice(halves->first);
-    }
-    return known;
-}
 
 Result<VariantRequest> request_of(const VariantOptions& options) {
     VariantRequest request;
@@ -111,7 +44,7 @@ Result<VariantRequest> request_of(const VariantOptions& options) {
         request.loop_forms[loop.substr(0, equals)] =
             form == "unroll" ? ir::LoopForm::Unrolled : ir::LoopForm::Rolled;
     }
-    Result<passes::Known> known = known_of(options.known);
+    Result<passes::Known> known = known_in(options.known.fixed, options.known.assumed);
     if (!known) return known.error();
     request.known = std::move(*known);
     return request;

@@ -86,9 +86,12 @@ Status add_budgets(report::PageData& page, const std::string& file) {
     std::vector<report::PageLimit> limits;
     for (std::size_t i = 0; i < page.variants.size(); ++i) {
         const VariantRequest& variant = page.variants[i];
+        // As `check` names them: a scene's shaders by its surfaces, whatever was chosen for them.
+        const std::string named = page.json["variants"][i].value("scene_surface", "");
+        const std::string settings = named.empty() ? report::settings_of(variant) : "";
         for (const measure::Metric& metric : measure::metrics()) {
             const std::optional<budget::Bound> bound = budgets->bound(
-                variant.surface, variant.target, report::settings_of(variant), metric.name);
+                named.empty() ? variant.surface : named, variant.target, settings, metric.name);
             if (bound && bound->max) limits.push_back({i, std::string(metric.name), *bound->max});
         }
     }

@@ -34,6 +34,8 @@ struct Case {
     Arithmetic arithmetic = Arithmetic::Fp32;
     int split_size = 31;  // rays a side whose error is split by source; 0: it is not.  A prime, so
                           // that they fall everywhere on maps that repeat themselves.
+    // Of a planned scene the name of the [[surface]] that the variant was chosen for; else empty.
+    std::string scene_surface = {};
 };
 
 // A map with what results say of it.

@@ -116,6 +116,7 @@ void add_metrics(Json& line, const Case& what, const CaseMap& map, const CaseMet
 // The variant, view, light and so on: as a line says them.
 Json inputs_of(const Case& what, const CaseMap& map, const MeasuredOn& on) {
     Json inputs = measure::json_of(what.request);
+    if (!what.scene_surface.empty()) inputs["scene_surface"] = what.scene_surface;
     inputs.update({{"arithmetic", name_of(what.arithmetic)},
                    {"map",
                     {{"name", map.set.name},

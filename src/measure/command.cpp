@@ -16,6 +16,12 @@ std::string_view word_of(ir::LoopForm form) {
     return "schedule";
 }
 
+ir::LoopForm form_of(std::string_view word) {
+    for (const ir::LoopForm form : {ir::LoopForm::Rolled, ir::LoopForm::Unrolled})
+        if (word == word_of(form)) return form;
+    return ir::LoopForm::Unspecified;
+}
+
 namespace {
 
 // Options and what they are given: "--fix", "scale=0.05".
@@ -49,19 +55,27 @@ std::string text_of(const VariantRequest& request) {
     return fmt::format("{}", fmt::join(words, " "));
 }
 
+std::vector<std::string> variant_options(const VariantRequest& request) {
+    std::vector<std::string> words{request.surface, "-T", request.target};
+    const auto add = [&](const std::string& option, const std::string& value) {
+        words.insert(words.end(), {option, value});
+    };
+    for (const auto& [knob, value] : request.knobs) add("-D", knob + "=" + value);
+    for (const auto& [loop, form] : request.loop_forms)
+        if (form != ir::LoopForm::Unspecified)
+            add("--loop", fmt::format("{}={}", loop, word_of(form)));
+    if (request.per_vertex) words.emplace_back("--per-vertex");
+    for (const auto& [option, value] : options_of(request.known)) add(option, value);
+    return words;
+}
+
 std::string run_command(const Case& what, const std::vector<std::string>& map_arguments,
                         const std::string& device, const std::vector<std::string>& more) {
-    const VariantRequest& request = what.request;
-    std::vector<std::string> words{"intaglio", "run", request.surface, "-T", request.target};
+    std::vector<std::string> words{"intaglio", "run"};
     const auto add = [&](std::initializer_list<std::string> some) {
         words.insert(words.end(), some);
     };
-    for (const auto& [knob, value] : request.knobs) add({"-D", knob + "=" + value});
-    for (const auto& [loop, form] : request.loop_forms)
-        if (form != ir::LoopForm::Unspecified)
-            add({"--loop", fmt::format("{}={}", loop, word_of(form))});
-    if (request.per_vertex) add({"--per-vertex"});
-    for (const auto& [option, value] : options_of(request.known)) add({option, value});
+    for (std::string& word : variant_options(what.request)) words.push_back(std::move(word));
     words.insert(words.end(), map_arguments.begin(), map_arguments.end());
     // Angles are joined to their option, because they may be negative.
     add({"--scale", fmt::format("{}", what.scale), "--mesh", "map",

@@ -13,10 +13,15 @@ namespace intaglio::measure {
 // A form as scenes and command lines write it, "loop" or "unroll"; "schedule" where none is asked
 // for.
 std::string_view word_of(ir::LoopForm form);
+// The form that a word means; Unspecified for every other.
+ir::LoopForm form_of(std::string_view word);
 
 // Surface, target, knobs by name, loops and the rest: two requests with the same text draw the
 // same.
 std::string text_of(const VariantRequest& request);
+
+// The options of `intaglio run`, `emit` and `explain` that say the same, each a word, unquoted.
+std::vector<std::string> variant_options(const VariantRequest& request);
 
 using maps::shell_quoted;
 

@@ -1,10 +1,12 @@
 // Members in the order in which a person reads them.
 #include "src/measure/variant_json.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "src/measure/command.h"
 #include "src/measure/named_metric.h"
+#include "src/variant/known_text.h"
 
 namespace intaglio::measure {
 
@@ -21,6 +23,28 @@ Json json_of(const VariantRequest& request) {
                  {"per_vertex", request.per_vertex}};
     if (!request.known.empty()) json["known"] = passes::to_strings(request.known);
     return json;
+}
+
+Result<VariantRequest> request_of(const Json& json) try {
+    VariantRequest request;
+    request.surface = json.at("surface");
+    request.target = json.at("target");
+    for (const auto& [knob, value] : json.at("knobs").items())
+        request.knobs.emplace_back(knob,
+                                   value.is_string() ? value.get<std::string>() : value.dump());
+    const Json loops = json.value("loops", Json::object());
+    for (const auto& [loop, word] : loops.items())
+        request.loop_forms[loop] = form_of(word.get<std::string>());
+    request.per_vertex = json.value("per_vertex", false);
+    Result<passes::Known> known =
+        known_in(json.value("known", Json::array()).get<std::vector<std::string>>());
+    if (!known) return known.error();
+    request.known = std::move(*known);
+    return request;
+} catch (const Json::exception& error) {
+    return input_error("not-results", fmt::format("a member of a variant is missing or of another "
+                                                  "kind: {}",
+                                                  error.what()));
 }
 
 Json json_of(Direction direction) {

@@ -14,6 +14,9 @@ namespace intaglio::measure {
 // {surface, target, knobs: {name: text}, loops: {name: "loop" or "unroll"}, per_vertex}, and where
 // anything is known of it, known: ["scale = 0.05", "view.z = 0.25..1"].
 nlohmann::ordered_json json_of(const VariantRequest& request);
+// The request that gave it; knobs may be numbers as well.  Errors: "not-results" where a member is
+// missing or of another kind; "known-syntax".
+Result<VariantRequest> request_of(const nlohmann::ordered_json& json);
 nlohmann::ordered_json json_of(Direction direction);
 nlohmann::ordered_json json_of(const check::SpirvCost& cost);
 // Of a Direct3D 9 stage, else null.

@@ -66,12 +66,6 @@ Json json_of(const VariantRequest& request) {
             {"known", json_of(request.known)}};
 }
 
-ir::LoopForm form_of(const std::string& word) {
-    for (const ir::LoopForm form : {ir::LoopForm::Rolled, ir::LoopForm::Unrolled})
-        if (word == measure::word_of(form)) return form;
-    return ir::LoopForm::Unspecified;
-}
-
 VariantRequest request_of(const Json& json) {
     VariantRequest request;
     request.surface = json.at("surface");
@@ -79,7 +73,7 @@ VariantRequest request_of(const Json& json) {
     for (const Json& knob : json.at("knobs"))
         request.knobs.emplace_back(knob.at(0).get<std::string>(), knob.at(1).get<std::string>());
     for (const auto& [loop, word] : json.at("loops").items())
-        request.loop_forms[loop] = form_of(word.get<std::string>());
+        request.loop_forms[loop] = measure::form_of(word.get<std::string>());
     request.per_vertex = json.at("per_vertex");
     request.count_reads = json.at("count_reads");
     request.pass = json.at("pass");

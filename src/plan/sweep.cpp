@@ -39,7 +39,7 @@ measure::SweepPlan sweep_of(const scene::Scene& scene, const Plan& plan, bool na
                     sweep.cases.push_back(
                         {sweep.rows.size(), index,
                          measure::Case{request, shot.view, shot.towards, surface.scale, rays.size,
-                                       measure::Filtering::Float, arithmetic, 0}});
+                                       measure::Filtering::Float, arithmetic, 0, surface.name}});
             sweep.rows.push_back({request, scene.file.string(), surface.line, surface.column});
         }
     }

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "src/maps/png.h"
+#include "src/measure/command.h"
 #include "src/measure/hits.h"
 #include "src/measure/hits_request.h"
 #include "src/measure/render.h"
@@ -65,6 +66,18 @@ std::string exact_surface(const dsl::Catalogue& catalogue, const std::string& su
     return exact;
 }
 
+// How many lights there are, and how many of them throw shadows: those are no choice of the search.
+std::vector<std::pair<std::string, std::string>> light_knobs(const VariantRequest& request) {
+    std::vector<std::pair<std::string, std::string>> knobs;
+    dsl::LightKnobs lights;
+    const std::vector<dsl::KnobBase*> known = lights.knobs();
+    for (const auto& knob : request.knobs)
+        if (std::any_of(known.begin(), known.end(),
+                        [&](const dsl::KnobBase* light) { return light->name() == knob.first; }))
+            knobs.push_back(knob);
+    return knobs;
+}
+
 // Draws everything on one map from one view.
 class Painter {
   public:
@@ -89,14 +102,16 @@ class Painter {
     Result<std::size_t> exact_render(const VariantRequest& request, Json& exact) {
         VariantRequest wanted;
         wanted.surface = exact_surface(catalogue_, request.surface);
+        wanted.knobs = light_knobs(request);
+        wanted.knobs.emplace_back("max_cells", "4096");
+        const std::string name = measure::text_of(wanted);  // on whatever target
         wanted.target = request.target;
-        wanted.knobs = {{"max_cells", "4096"}};
-        const auto known = exact_places_.find(wanted.surface);
+        const auto known = exact_places_.find(name);
         if (known != exact_places_.end()) return known->second;
         const Result<Json> picture = render(wanted);
         if (!picture) return picture.error();
         exact.push_back(*picture);
-        return exact_places_[wanted.surface] = exact.size() - 1;
+        return exact_places_[name] = exact.size() - 1;
     }
 
     // `error`, `reads`, `reads_step` and `reads_max` of an entry.
@@ -144,12 +159,15 @@ class Painter {
     std::map<std::string, std::size_t> exact_places_;
 };
 
-// The variants with pictures: of each technique the one in the middle, in the data's order.
-std::vector<std::size_t> chosen_variants(const PageData& page) {
+// The variants with pictures on a map: of those with a case on it, of each technique the one in the
+// middle, in the data's order; all that a plan chose, which are one for each target.
+std::vector<std::size_t> chosen_variants(const PageData& page, std::size_t map) {
     std::vector<std::string> techniques;
     std::map<std::string, std::vector<std::size_t>> by_technique;
-    for (std::size_t i : drawn_variants(page)) {
-        const std::string& technique = page.variants[i].surface;
+    for (std::size_t i : drawn_variants(page, map)) {
+        const bool is_planned = page.json.at("variants")[i].contains("scene_surface");
+        const std::string technique =
+            is_planned ? page.variants[i].target : page.variants[i].surface;
         if (!by_technique.contains(technique)) techniques.push_back(technique);
         by_technique[technique].push_back(i);
     }
@@ -184,10 +202,10 @@ std::optional<measure::Shot> shown_shot(const PageData& page, std::size_t map) {
                          item->at("scale"), 192, 192};
 }
 
-std::vector<std::size_t> drawn_variants(const PageData& page) {
+std::vector<std::size_t> drawn_variants(const PageData& page, std::size_t map) {
     std::set<std::size_t> with_case;
     for (const Json& item : page.json.at("cases"))
-        with_case.insert(item.at("variant").get<std::size_t>());
+        if (item.at("map") == map) with_case.insert(item.at("variant").get<std::size_t>());
     std::vector<std::size_t> drawn;
     for (std::size_t variant : with_case) {
         const Target* target = find_target(page.variants[variant].target);
@@ -201,7 +219,6 @@ Status add_gallery(PageData& page, const dsl::Catalogue& catalogue,
     const Result<vulkan::Device> device = vulkan::Device::create({page.device, false});
     if (!device) return device.error();
     Json entries = Json::array(), exact = Json::array();
-    const std::vector<std::size_t> variants = chosen_variants(page);
     const measure::Filtering filtering =
         page.native_filtering ? measure::Filtering::Native : measure::Filtering::Float;
     for (std::size_t map = 0; map < maps.size(); ++map) {
@@ -210,7 +227,7 @@ Status add_gallery(PageData& page, const dsl::Catalogue& catalogue,
         shot->width = shot->height = options.size;
         const Json view = json_of(shot->view), light = json_of(shot->light);
         Painter painter(*device, catalogue, maps[map], *shot, filtering);
-        for (std::size_t variant : variants) {
+        for (std::size_t variant : chosen_variants(page, map)) {
             const VariantRequest& request = page.variants[variant];
             Json entry = {{"map", map}, {"variant", variant}, {"view", view}, {"light", light}};
             const Result<Json> render = painter.render(request);

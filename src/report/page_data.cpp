@@ -7,16 +7,13 @@
 
 #include <fmt/format.h>
 
+#include "src/measure/variant_json.h"
 #include "src/report/command.h"
 
 namespace intaglio::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string text_of_number(const Json& value) {
-    return value.is_string() ? value.get<std::string>() : value.dump();
-}
 
 // A knob as a number where it is one.
 Json number_or_text(const Json& value) {
@@ -25,32 +22,12 @@ Json number_or_text(const Json& value) {
     return number.is_number() ? number : value;
 }
 
-VariantRequest request_of(const Json& row) {
-    VariantRequest request;
-    request.surface = row.at("surface");
-    request.target = row.at("target");
-    for (const auto& [knob, value] : row.at("knobs").items())
-        request.knobs.emplace_back(knob, text_of_number(value));
-    if (row.contains("loops"))
-        for (const auto& [loop, form] : row.at("loops").items())
-            request.loop_forms[loop] = form == "loop"     ? ir::LoopForm::Rolled
-                                       : form == "unroll" ? ir::LoopForm::Unrolled
-                                                          : ir::LoopForm::Unspecified;
-    request.per_vertex = row.value("per_vertex", false);
-    return request;
-}
-
 // "intaglio emit" or "intaglio explain" with everything that names the variant.
 std::string variant_command(const std::string& command, const VariantRequest& request) {
-    std::vector<std::string> words{"intaglio", command, request.surface, "-T", request.target};
-    for (const auto& [knob, value] : request.knobs)
-        words.insert(words.end(), {"-D", knob + "=" + value});
-    for (const auto& [loop, form] : request.loop_forms)
-        if (form != ir::LoopForm::Unspecified)
-            words.insert(words.end(), {"--loop", fmt::format("{}={}", loop, word_of(form))});
-    if (request.per_vertex) words.emplace_back("--per-vertex");
-    for (std::string& word : words) word = shell_quoted(word);
-    return fmt::format("{}", fmt::join(words, " "));
+    std::string text = "intaglio " + command;
+    for (const std::string& word : measure::variant_options(request))
+        text += " " + shell_quoted(word);
+    return text;
 }
 
 // What of a command of `intaglio run` stands for the map.
@@ -64,8 +41,10 @@ std::vector<std::string> map_arguments_in(const std::string& command) {
     return arguments;
 }
 
-void add_variant(PageData& page, const Json& row) {
-    page.variants.push_back(request_of(row));
+Status add_variant(PageData& page, const Json& row) {
+    Result<VariantRequest> read = measure::request_of(row);
+    if (!read) return read.error();
+    page.variants.push_back(std::move(*read));
     const VariantRequest& request = page.variants.back();
     Json variant = row;
     variant["technique"] = request.surface;
@@ -73,6 +52,7 @@ void add_variant(PageData& page, const Json& row) {
     variant["emit_command"] = variant_command("emit", request);
     variant["explain_command"] = variant_command("explain", request);
     page.json["variants"].push_back(std::move(variant));
+    return Done{};
 }
 
 int index_of_map(const PageData& page, const std::string& name) {
@@ -87,14 +67,19 @@ Diagnostic not_results(const std::string& sentence, const std::string& file) {
 }
 
 // What tells one variant of a sweep from another.
-std::string variant_key(const Json& line) {
-    return Json{line.at("surface"), line.at("target"), line.at("knobs"), line.at("loops"),
-                line.at("per_vertex")}
-        .dump();
+Json variant_in(const Json& line) {
+    Json variant;
+    for (const char* member : {"surface", "target", "knobs", "loops", "per_vertex"})
+        variant[member] = line.at(member);
+    for (const char* member : {"known", "scene_surface"})
+        if (line.contains(member)) variant[member] = line.at(member);
+    return variant;
 }
 
-// A variant's place in the report: its search's in the catalogue, then surface, knobs as numbers,
-// target.
+std::string variant_key(const Json& line) { return variant_in(line).dump(); }
+
+// A variant's place in the report: the scene's surface, where it is of one; its search's in the
+// catalogue, then surface, knobs as numbers, target.
 auto variant_order(const Json& line, const dsl::Catalogue& catalogue) {
     const std::string surface = line.at("surface");
     std::string search = surface.substr(0, surface.find(','));
@@ -109,8 +94,8 @@ auto variant_order(const Json& line, const dsl::Catalogue& catalogue) {
         const Json number = number_or_text(value);
         knobs.push_back(number.is_number() ? number.get<double>() : 0);
     }
-    return std::tuple(place, surface, knobs, line.at("target").get<std::string>(),
-                      variant_key(line));
+    return std::tuple(line.value("scene_surface", ""), place, surface, knobs,
+                      line.at("target").get<std::string>(), variant_key(line));
 }
 
 // Maps from files first: they are what people have; then by name.
@@ -203,8 +188,9 @@ Result<std::vector<Json>> lines_of(const std::string& text, const std::string& f
 }
 
 // Every variant once, in the report's order; its index by its key.
-std::map<std::string, std::size_t> add_variants(PageData& page, const std::vector<Json>& lines,
-                                                const dsl::Catalogue& catalogue) {
+Result<std::map<std::string, std::size_t>> add_variants(PageData& page,
+                                                        const std::vector<Json>& lines,
+                                                        const dsl::Catalogue& catalogue) {
     std::map<std::string, const Json*> by_key;
     for (const Json& line : lines) by_key.emplace(variant_key(line), &line);
     std::vector<const Json*> variants;
@@ -214,9 +200,7 @@ std::map<std::string, std::size_t> add_variants(PageData& page, const std::vecto
     });
     std::map<std::string, std::size_t> indices;
     for (const Json* line : variants) {
-        Json row;
-        for (const char* member : {"surface", "target", "knobs", "loops", "per_vertex"})
-            row[member] = line->at(member);
+        Json row = variant_in(*line);
         const bool refused = !line->at("refused").is_null();
         row["spirv"] = refused ? Json() : line->at("cost").at("spirv");
         row["d3d9"] = refused ? Json() : line->at("cost").at("d3d9");
@@ -224,7 +208,7 @@ std::map<std::string, std::size_t> add_variants(PageData& page, const std::vecto
         if (refused)
             page.json["refused"].push_back({{"variant", page.variants.size()},
                                             {"sentence", line->at("refused").at("sentence")}});
-        add_variant(page, row);
+        if (Status status = add_variant(page, row); !status) return status.error();
     }
     return indices;
 }
@@ -271,7 +255,9 @@ Result<PageData> page_data_of_measurement(const std::string& text, const std::st
                      {"variants", Json::array()},
                      {"cases", Json::array()}};
         page.maps.resize(page.json["maps"].size(), {{}, scale});
-        for (const Json& row : source.at("rows")) add_variant(page, row);
+        for (const Json& row : source.at("rows"))
+            if (Status status = add_variant(page, row); !status)
+                return not_results(status.error().message, file);
         for (Json item : source.at("cases")) {
             const int map = index_of_map(page, item.at("map"));
             const std::size_t variant = item.at("row");
@@ -303,7 +289,8 @@ Result<PageData> page_data_of_sweep(const std::string& text, const std::string& 
     try {
         const Result<std::vector<Json>> lines = lines_of(text, file, catalogue);
         if (!lines) return lines.error();
-        const std::map<std::string, std::size_t> variants = add_variants(page, *lines, catalogue);
+        const auto variants = add_variants(page, *lines, catalogue);
+        if (!variants) return not_results(variants.error().message, file);
         std::map<std::string, std::size_t> maps;
         for (const Json& line : *lines) {
             Json map = line.at("map");
@@ -316,7 +303,7 @@ Result<PageData> page_data_of_sweep(const std::string& text, const std::string& 
             page.native_filtering = line.at("filtering") == "native";
             if (line.at("refused").is_null())
                 page.json["cases"].push_back(
-                    case_of_line(line, place->second, variants.at(variant_key(line))));
+                    case_of_line(line, place->second, variants->at(variant_key(line))));
         }
     } catch (const Json::exception& error) {
         return not_results(fmt::format("a member is missing or of another kind: {}", error.what()),

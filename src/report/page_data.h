@@ -16,8 +16,9 @@ namespace intaglio::report {
 //   made_by   {name of a number: what made it}
 //   device    the device's name
 //   maps      [{name, width, height, bits}]
-//   variants  [{surface, technique, target, knobs: {name: number}, spirv: {...}, d3d9: {...} or
-//             null, emit_command, explain_command}]
+//   variants  [{surface, technique, target, knobs: {name: number}, loops: {name: form}, per_vertex,
+//             known: ["scale = 0.05"] and scene_surface (of a planned scene), spirv: {...}, d3d9:
+//             {...} or null, emit_command, explain_command}]
 //   cases     [{map, variant (both counted from 0), view: {elevation, azimuth}, light, scale,
 //             reads: {mean, max}, hits, command; of a sweep also arithmetic, instructions, swim,
 //             picture, split; of `measure` also time}]: numbers as measured; what is not known is

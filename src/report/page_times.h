@@ -8,8 +8,8 @@
 namespace intaglio::report {
 
 // Draws each variant that the device runs `rounds` times, one after the other round after round, so
-// that what else the machine does falls on all alike; on the first map that is not empty, from the
-// view of the data nearest to 30 degrees.  variants[i].time = {ratio, ratio_low, ratio_high}: over
+// that what else the machine does falls on all alike; on the first map that is not empty and that
+// it was measured on, from the view of that map's data nearest to 30 degrees.  variants[i].time = {ratio, ratio_low, ratio_high}: over
 // the rounds the median and the quartiles of the time relative to the first such variant's in the
 // same round; made_by.time says all of this.  Nothing where no map is known, or where
 // the cases have times of their own.

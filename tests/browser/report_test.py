@@ -3,10 +3,13 @@
 usage: report_test.py INTAGLIO SCENE FOLDER
 Measures a small scene, makes its page and opens it from its file.  Every section draws or says why not; tables and
 plots hold the numbers of results.json; controls work; nothing is written to the console and nothing leaves the page.
+The same numbers as a planned scene has them, each surface with views and shaders of its own, make a second page.
 """
 
+import functools
 import json
 import pathlib
+import shlex
 import subprocess
 import sys
 import time
@@ -21,12 +24,49 @@ flags = ("--headless=new --no-sandbox --disable-quic --no-first-run --disable-ba
          "--disable-component-update --disable-sync --use-angle=swiftshader --enable-unsafe-swiftshader")
 
 
+@functools.cache
 def make_page():
     folder.mkdir(parents=True, exist_ok=True)
     for command in ([intaglio, "measure", scene, "-o", str(folder)],
                     [intaglio, "report", str(folder), "-o", str(folder / "report.html"), "--picture-size", "64"]):
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     return folder / "report.html", json.loads((folder / "results.json").read_text())
+
+
+# Of a planned scene: a wall seen from two elevations and spikes from a third, their shaders with what is known of them.
+def planned_lines(results):
+    folded = {"loops": {}, "per_vertex": True, "known": ["scale = 0.08", "view.z = 0.125..0.9375"]}
+    shaders = [("wall", "bricks", "parallax_occlusion", "glsl_450", {"taps": "4"}, (60, 30)),
+               ("wall", "bricks", "parallax_occlusion", "ps_2_b", {"taps": "4"}, (60, 30)),
+               ("thorns", "spikes", "search=relief,shadow=none", "glsl_450", {"linear_steps": "4"}, (15,)),
+               ("thorns", "spikes", "search=relief,shadow=none", "hlsl_5_0", {"linear_steps": "32"}, (15,))]
+    for surface, maker, composition, target, knobs, elevations in shaders:
+        for case in results["cases"]:
+            row = results["rows"][case["row"]]
+            technique = "relief" if "relief" in composition else composition
+            alike = row["surface"] == technique and row["knobs"] == knobs
+            if case["map"] != maker or case["view"]["elevation"] not in elevations or not alike or \
+                    (row["d3d9"] is not None) != (target == "ps_2_b"):
+                continue
+            yield {"schema": 1, "surface": composition, "target": target, "knobs": knobs, **folded,
+                   "scene_surface": surface, "arithmetic": "fp32",
+                   "map": {"name": surface, "class": surface, "width": 32, "height": 32, "bits": 16, "hash": maker,
+                           "arguments": ["--maker", maker, "--map-size", "32x32"]},
+                   "view": case["view"], "light": case["light"], "scale": 0.08, "size": 16, "split_size": 0,
+                   "filtering": "float", "device": results["device"], "refused": None,
+                   "cost": {"d3d9": row["d3d9"], "spirv": row["spirv"], "reads_mean": case["reads"]["mean"],
+                            "reads_max": case["reads"]["max"], "instructions_mean": None, "instructions_max": None},
+                   "hits": case["hits"], "swim": None, "picture": None, "split": None,
+                   "worst": {"command": case["command"]}}
+
+
+def make_planned_page(results):
+    planned = folder / "planned"
+    planned.mkdir(exist_ok=True)
+    (planned / "results.jsonl").write_text("".join(json.dumps(line) + "\n" for line in planned_lines(results)))
+    subprocess.run([intaglio, "report", str(planned), "-o", str(planned / "report.html"), "--picture-size", "64"],
+                   check=True, stdout=subprocess.DEVNULL)
+    return planned / "report.html"
 
 
 def open_browser():
@@ -41,10 +81,12 @@ def is_close(a, b):
     return a is not None and b is not None and abs(a - b) <= 1e-12 * max(abs(a), abs(b))
 
 
-class ReportTest(unittest.TestCase):
+class Page(unittest.TestCase):
+    """What every page is asked: each class has one, in a browser of its own."""
+
     @classmethod
     def setUpClass(cls):
-        cls.page, cls.results = make_page()
+        cls.page = cls.make()
         cls.browser = open_browser()
         cls.browser.set_window_size(1400, 1000)
         cls.browser.get(cls.page.as_uri())
@@ -81,14 +123,6 @@ class ReportTest(unittest.TestCase):
               Object.fromEntries([...row.cells].map((cell, i) => [names[i], cell.dataset.value ?? cell.textContent])));
             """, section)
 
-    def name_of(self, row):
-        parts = [row["surface"], ", ".join(f"{name} = {value}" for name, value in row["knobs"].items()), row["target"]]
-        return " · ".join(part for part in parts if part)
-
-    def cases(self, map_name, elevation=None):
-        return [case for case in self.results["cases"]
-                if case["map"] == map_name and elevation in (None, case["view"]["elevation"])]
-
     # What is drawn: [(technique, x, y)] of all points of a chart but its front.
     def points(self, section):
         return self.run_script("""
@@ -96,6 +130,28 @@ class ReportTest(unittest.TestCase):
             return sets.filter(set => set.label !== 'Pareto front')
               .flatMap(set => set.data.map(point => [set.label, point.x, point.y]));
             """, section)
+
+    def assert_no_sideways_scrolling(self):
+        for width in (1400, 390):
+            self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                         {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
+            self.until(f"return innerWidth === {width} && document.documentElement.scrollWidth <= {width}")
+        self.browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+
+class ReportTest(Page):
+    @classmethod
+    def make(cls):
+        page, cls.results = make_page()
+        return page
+
+    def name_of(self, row):
+        parts = [row["surface"], ", ".join(f"{name} = {value}" for name, value in row["knobs"].items()), row["target"]]
+        return " · ".join(part for part in parts if part)
+
+    def cases(self, map_name, elevation=None):
+        return [case for case in self.results["cases"]
+                if case["map"] == map_name and elevation in (None, case["view"]["elevation"])]
 
     def test_every_section_draws_or_says_why_not(self):
         sections = self.browser.find_elements(By.CSS_SELECTOR, "main > section")
@@ -190,6 +246,20 @@ class ReportTest(unittest.TestCase):
         self.browser.find_element(By.CSS_SELECTOR, button).click()
         self.assertEqual(self.points("pareto"), before)
 
+    def test_nothing_to_draw_takes_no_room(self):
+        buttons = self.browser.find_elements(By.CSS_SELECTOR, "#pareto .legend button")
+        names = [button.get_attribute("data-technique") for button in buttons]
+        press = "document.querySelector(`#pareto .legend button[data-technique='${arguments[0]}']`).click()"
+        full = self.run_script("return document.querySelector('#pareto .plot').offsetHeight")
+        for name in names:
+            self.run_script(press, name)
+        self.assertFalse(self.browser.find_element(By.CSS_SELECTOR, "#pareto canvas").is_displayed())
+        self.assertIn("No variant", self.browser.find_element(By.CSS_SELECTOR, "#pareto .absent").text)
+        self.assertLess(self.run_script("return document.querySelector('#pareto .plot').offsetHeight"), full / 2)
+        for name in names:
+            self.run_script(press, name)
+        self.assertEqual(self.run_script("return document.querySelector('#pareto .plot').offsetHeight"), full)
+
     def test_a_point_shows_its_command_its_picture_and_its_code(self):
         self.run_script("document.getElementById('pareto').scrollIntoView({behavior: 'instant'})")
         place = self.run_script("""
@@ -252,11 +322,7 @@ class ReportTest(unittest.TestCase):
         dark = self.run_script(paper)
         self.choose("theme", "light")
         self.assertNotEqual(dark, self.run_script(paper))
-        for width in (1400, 420):
-            self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
-                                         {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False})
-            self.until(f"return innerWidth === {width} && document.documentElement.scrollWidth <= {width}")
-        self.browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+        self.assert_no_sideways_scrolling()
 
     def test_what_cannot_be_reported_is_refused_with_a_sentence(self):
         broken = folder / "broken"
@@ -287,6 +353,93 @@ class ReportTest(unittest.TestCase):
                      if message["method"] == "Network.requestWillBeSent"}
         self.assertIn(self.page.as_uri(), addresses)
         self.assertEqual([address for address in addresses if not address.startswith(("file:", "data:", "blob:"))], [])
+
+
+class PlannedTest(Page):
+    @classmethod
+    def make(cls):
+        _, results = make_page()
+        return make_planned_page(results)
+
+    def offered(self, select_id):
+        return [option.get_attribute("value")
+                for option in self.browser.find_elements(By.CSS_SELECTOR, f"#{select_id} option")]
+
+    def test_a_choice_offers_what_occurs_with_those_before_it(self):
+        self.assertEqual(len(self.points("pareto")), 2, "it starts with something to see")
+        self.assertEqual(self.offered("pareto-map"), ["0", "1", "worst"])
+        views = {"thorns": ["15"], "wall": ["30", "60", "worst"]}
+        targets = {"thorns": ["glsl_450", "hlsl_5_0", "worst"], "wall": ["glsl_450", "ps_2_b", "worst"]}
+        self.choose("pareto-cost", "reads")
+        for map_index, name in ((1, "wall"), (0, "thorns"), (1, "wall")):
+            self.choose("pareto-map", str(map_index))
+            self.assertEqual(self.run_script("return data.maps[arguments[0]].name", map_index), name)
+            self.assertEqual(self.offered("pareto-elevation"), views[name])
+            self.assertEqual(self.offered("pareto-target"), targets[name])
+            for elevation in views[name]:
+                if len(views[name]) > 1:  # else it is not even shown
+                    self.choose("pareto-elevation", elevation)
+                for target in targets[name]:
+                    self.choose("pareto-target", target)
+                    count = 2 if target == "worst" else 1
+                    self.assertEqual(len(self.points("pareto")), count, (name, elevation, target))
+        self.choose("pareto-map", "worst")
+        self.assertEqual(self.offered("pareto-elevation"), ["15", "30", "60", "worst"])
+
+    def test_a_choice_stays_where_it_still_exists(self):
+        value = "return document.getElementById('pareto-target').value"
+        self.choose("pareto-map", "1")
+        self.choose("pareto-target", "glsl_450")
+        self.choose("pareto-map", "0")
+        self.assertEqual(self.run_script(value), "glsl_450")
+        self.choose("pareto-target", "hlsl_5_0")
+        self.choose("pareto-map", "1")
+        self.assertEqual(self.run_script(value), "worst")
+
+    def test_what_has_no_steps_is_not_offered_as_missed(self):
+        self.assertEqual(self.offered("missed-map"), ["0"])
+        self.assertEqual({row["steps, by the knob that counts them"] for row in self.table("missed")}, {"4", "32"})
+
+    def test_a_name_begins_with_the_surface_and_says_what_was_asked(self):
+        names = [option.text for option in self.browser.find_elements(By.CSS_SELECTOR, "#source-variant option")]
+        self.assertIn("wall · ps_2_b · parallax_occlusion · taps = 4, per vertex", names)
+        self.assertEqual({name.split(" · ")[0] for name in names}, {"wall", "thorns"})
+
+    def test_a_command_gives_the_shader_that_is_shown(self):
+        for index in self.offered("source-variant"):
+            self.choose("source-variant", index)
+            emit, explain = (code.text for code in
+                             self.browser.find_elements(By.CSS_SELECTOR, "#source .command code"))
+            self.assertIn("--per-vertex --fix scale=0.08 --assume view.z=0.125..0.9375", emit)
+            text = subprocess.run([intaglio, *shlex.split(emit)[1:]], check=True, capture_output=True, text=True).stdout
+            shown = self.run_script("""
+                const cells = [...document.querySelectorAll('#source-text td.text')];
+                return cells.map(cell => cell.textContent + '\\n').join('');""")
+            self.assertEqual(shown, text)
+            self.assertNotIn("uniform float scale", text)
+            stage = json.loads(subprocess.run([intaglio, *shlex.split(explain)[1:], "--json"], check=True,
+                                              capture_output=True).stdout)["stages"][0]
+            spent = self.run_script("""
+                return [...document.querySelectorAll('#source-spent tr.step')].map(row =>
+                  [...row.querySelectorAll('.slots')].map(cell => +cell.textContent));""")
+            self.assertEqual(spent, [[line["arithmetic"], line["texture"]] for line in stage["steps"]])
+
+    def test_a_shader_is_drawn_on_its_own_surface_alone(self):
+        pairs = self.run_script("""
+            return data.gallery.entries.map(entry =>
+              [data.maps[entry.map].name, data.variants[entry.variant].scene_surface]);""")
+        self.assertEqual(sorted(pairs), [["thorns", "thorns"], ["thorns", "thorns"], ["wall", "wall"]])
+        for map_index, first, count in ((1, 2, 1), (0, 0, 2)):
+            self.choose("gallery-map", str(map_index))
+            self.until(f"return document.getElementById('gallery-stage').dataset.shown.startsWith('{first}/')")
+            self.assertEqual(len(self.browser.find_elements(By.CSS_SELECTOR, "#gallery figure")), count)
+            self.assertEqual(len(self.offered("gallery-variant")), count)
+
+    def test_widths(self):
+        self.assert_no_sideways_scrolling()
+
+    def test_zz_nothing_was_complained_of(self):
+        self.assertEqual(self.browser.get_log("browser"), [])
 
 
 if __name__ == "__main__":

@@ -128,7 +128,9 @@ TEST_F(SceneCommands, MeasuresWhatThePlanOrders) {
     for (const std::string& name : names_in("orders")) {
         const Json request = Json::parse(contents(path("orders/" + name)))["request"];
         Json& variant = ordered[request["target"]];
-        variant["surface"] = request["surface"];
+        for (const char* member : {"surface", "loops", "per_vertex"})
+            variant[member] = request[member];
+        variant["known"] = request["known"]["uniforms"].size() + request["known"]["ranges"].size();
         for (const Json& knob : request["knobs"]) variant["knobs"][knob[0]] = knob[1];
     }
     std::map<std::string, std::set<std::string>> views;
@@ -137,9 +139,11 @@ TEST_F(SceneCommands, MeasuresWhatThePlanOrders) {
         const Json result = Json::parse(line);
         const std::string target = result["target"];
         ASSERT_TRUE(ordered.contains(target)) << target;
-        for (const char* member : {"surface", "knobs"})
+        for (const char* member : {"surface", "knobs", "loops", "per_vertex"})
             EXPECT_EQ(result[member], ordered[target][member]) << line;
+        EXPECT_EQ(result["known"].size(), ordered[target]["known"]) << line;
         EXPECT_EQ(result["map"]["name"], "wall");
+        EXPECT_EQ(result["scene_surface"], "wall");
         views[target].insert(result["view"].dump() + result["light"].dump());
     }
     EXPECT_EQ(views.size(), 2u);

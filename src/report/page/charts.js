@@ -233,6 +233,7 @@ function chartBox(make, pick) {
     chart?.destroy();
     chart = null;
     canvas.hidden = !made.config;
+    box.classList.toggle('empty', !made.config);
     box.querySelector('.absent')?.remove();
     if (!made.config) {
       box.append(absent(made.label));

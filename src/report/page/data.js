@@ -131,12 +131,37 @@ const costMeasures = [
 const techniques = [...new Set(data.variants.map(variant => variant.technique))];
 
 const directionName = ({elevation, azimuth}) => `elevation ${plain(elevation)}°, azimuth ${plain(azimuth)}°`;
-const knobsText = variant =>
-  Object.entries(variant.knobs)
-    .map(([name, value]) => `${name} = ${value}`)
-    .join(', ');
-const variantName = variant =>
-  [variant.surface, knobsText(variant), variant.target].filter(Boolean).join(' · ');
+// What was asked of a variant besides surface and target.  What a scene knows of it is in its command and its text: it
+// is long, and the scene's surface stands for it.
+const settingsText = variant =>
+  [
+    ...Object.entries(variant.knobs).map(([name, value]) => `${name} = ${value}`),
+    ...Object.entries(variant.loops ?? {})
+      .filter(([, form]) => form !== 'schedule')
+      .map(([name, form]) => `${name}: ${form}`),
+    ...(variant.per_vertex ? ['per vertex'] : []),
+    ...(variant.scene_surface ? [] : (variant.known ?? [])),
+  ].join(', ');
+// Its name begins with what tells it from the others: of a planned scene surface and target are enough, and what was
+// chosen for them comes after.
+const nameParts = variant => {
+  const chosen = [variant.surface, settingsText(variant)],
+    [lead, rest] = variant.scene_surface
+      ? [[variant.scene_surface, variant.target], chosen]
+      : [[...chosen, variant.target], []];
+  return [lead, rest].map(words => words.filter(Boolean).join(' · '));
+};
+const variantName = variant => nameParts(variant).filter(Boolean).join(' · ');
+// In few words, beside points and bars.
+const shortName = variant =>
+  (variant.scene_surface
+    ? [variant.scene_surface, variant.target]
+    : [variant.technique, Object.values(variant.knobs).join(', ')]
+  )
+    .filter(Boolean)
+    .join(' ');
+// Whether a plan chose the variants, for each surface of its scene and target one.
+const isPlanned = data.variants.length > 0 && data.variants.every(variant => variant.scene_surface);
 
 // The knob that a technique's variants differ in and that says how many steps it takes; null where none does.
 function stepsKnob(technique) {

@@ -207,9 +207,9 @@ async function makeGallery() {
         'aria-current',
         String(Number(figure.dataset.entry) === gallery.entries.indexOf(entry)),
       );
-    variantSelect.querySelector('select').value = String(entry.variant);
     mapSelect.querySelector('select').value = String(entry.map);
-    viewSelect.querySelector('select').value = viewKey(entry);
+    fillChoice(variantSelect, variantOptions(entry), String(entry.variant));
+    fillChoice(viewSelect, viewOptions(entry), viewKey(entry));
     stage.dataset.shown = `${gallery.entries.indexOf(entry)}/${shown.left}/${shown.right}`;
   };
   const scaleOf = () => {
@@ -278,8 +278,24 @@ async function makeGallery() {
   };
 
   const viewKey = entry => `${entry.view.elevation}/${entry.view.azimuth}`;
-  const options = (property, name) =>
-    valuesOf(gallery.entries, property).map(value => [String(value), name(value)]);
+  const options = (entries, property, name) =>
+    valuesOf(entries, property).map(value => [String(value), name(value)]);
+  // What there is on an entry's map, and of its variant there.
+  const variantOptions = ({map}) =>
+    options(
+      gallery.entries.filter(entry => entry.map === map),
+      entry => entry.variant,
+      value => variantName(data.variants[value]),
+    );
+  const viewOptions = ({map, variant}) =>
+    options(
+      gallery.entries.filter(entry => entry.map === map && entry.variant === variant),
+      viewKey,
+      value => {
+        const [elevation, azimuth] = value.split('/');
+        return directionName({elevation: Number(elevation), azimuth: Number(azimuth)});
+      },
+    );
   const choose = change => {
     const wanted = {
       map: Number(mapSelect.querySelector('select').value),
@@ -291,9 +307,7 @@ async function makeGallery() {
     const entry =
       gallery.entries.find(each => fits(each) && viewKey(each) === wanted.view) ??
       gallery.entries.find(fits) ??
-      gallery.entries.find(each =>
-        change.map != null ? each.map === wanted.map : each.variant === wanted.variant,
-      );
+      gallery.entries.find(each => each.map === wanted.map);
     if (entry.map !== shown.entry?.map) fillThumbs(entry);
     return show(entry);
   };
@@ -304,6 +318,7 @@ async function makeGallery() {
     'Map',
     'gallery-map',
     options(
+      gallery.entries,
       entry => entry.map,
       value => data.maps[value].name,
     ),
@@ -313,20 +328,14 @@ async function makeGallery() {
   const variantSelect = choice(
     'Variant',
     'gallery-variant',
-    options(
-      entry => entry.variant,
-      value => variantName(data.variants[value]),
-    ),
+    variantOptions(first),
     String(first.variant),
     value => choose({variant: Number(value)}),
   );
   const viewSelect = choice(
     'View',
     'gallery-view',
-    options(viewKey, value => {
-      const [elevation, azimuth] = value.split('/');
-      return directionName({elevation: Number(elevation), azimuth: Number(azimuth)});
-    }),
+    viewOptions(first),
     viewKey(first),
     value => choose({view: value}),
   );

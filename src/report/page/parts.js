@@ -15,15 +15,20 @@ function element(tag, attributes = {}, ...children) {
 const sectionOf = id => document.getElementById(id);
 const absent = words => element('p', {class: 'absent'}, words);
 
-// A labelled select.  `options`: [[value, name]].  Shown as words where there is nothing to choose.
+// A labelled select.  `options`: [[value, name]].  Hidden where there is nothing to choose.
 function choice(label, id, options, value, change) {
-  const select = element(
-    'select',
-    {id, onchange: () => change(select.value)},
-    ...options.map(([key, name]) => element('option', {value: key}, name)),
-  );
+  const select = element('select', {id, onchange: () => change(select.value)});
+  const box = element('label', {class: 'choice'}, label, select);
+  fillChoice(box, options, value);
+  return box;
+}
+
+// Its options anew.
+function fillChoice(box, options, value) {
+  const select = box.querySelector('select');
+  select.replaceChildren(...options.map(([key, name]) => element('option', {value: key}, name)));
   select.value = value;
-  return element('label', {class: 'choice', hidden: options.length < 2}, label, select);
+  box.hidden = options.length < 2;
 }
 
 function copyButton(text) {

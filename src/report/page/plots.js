@@ -51,11 +51,10 @@ const dimensions = [
   {id: 'target', label: 'Target', of: c => variantOf(c).target, name: String, all: 'all targets'},
 ];
 
-const dimensionValues = dimension => valuesOf(data.cases, dimension.of);
+const dimensionNamed = id => dimensions.find(each => each.id === id);
 
 // Where a plot starts: the first map, a view of about 30 degrees, everything of the rest but one arithmetic.
-function startOf(dimension) {
-  const values = dimensionValues(dimension);
+function startOf(dimension, values) {
   if (dimension.id === 'map') return String(values[0]);
   if (dimension.id === 'elevation')
     return String(
@@ -65,42 +64,45 @@ function startOf(dimension) {
   return worst;
 }
 
-// A section's choices of dimensions: `state` by dimension id, and the cases that are left.
-function makeFilter(prefix, ids, redraw) {
-  const state = {};
-  const controls = ids.map(id => {
-    const dimension = dimensions.find(each => each.id === id);
-    state[id] = startOf(dimension);
-    const options = [...dimensionValues(dimension).map(value => [String(value), dimension.name(value)])];
-    if (options.length > 1) options.push([worst, dimension.all]);
-    return choice(
-      dimension.label,
-      `${prefix}-${id}`,
-      options,
-      options.length > 1 ? state[id] : options[0]?.[0],
-      value => {
-        state[id] = value;
-        redraw();
-      },
-    );
-  });
-  const cases = () =>
-    data.cases.filter(item =>
-      ids.every(
-        id => state[id] === worst || String(dimensions.find(each => each.id === id).of(item)) === state[id],
-      ),
-    );
+// A section's choices of dimensions among `items`: `state` by dimension id, and the cases that are left.  Each choice
+// offers what occurs with those before it; one that does not occur any more starts anew.
+function makeFilter(prefix, items, ids, redraw) {
+  const state = {},
+    offered = {},
+    boxes = {};
+  const isLeft = (item, id) => state[id] === worst || String(dimensionNamed(id).of(item)) === state[id];
+  const follow = () => {
+    let left = items;
+    for (const id of ids) {
+      const dimension = dimensionNamed(id),
+        values = (offered[id] = valuesOf(left, dimension.of)),
+        options = values.map(value => [String(value), dimension.name(value)]);
+      if (state[id] !== worst && !options.some(([key]) => key === state[id]))
+        state[id] = startOf(dimension, values);
+      if (options.length > 1) options.push([worst, dimension.all]);
+      fillChoice(boxes[id], options, options.length > 1 ? state[id] : options[0]?.[0]);
+      left = left.filter(item => isLeft(item, id));
+    }
+  };
+  for (const id of ids)
+    boxes[id] = choice(dimensionNamed(id).label, `${prefix}-${id}`, [], '', value => {
+      state[id] = value;
+      follow();
+      redraw();
+    });
+  follow();
+  const cases = () => items.filter(item => ids.every(id => isLeft(item, id)));
+  // Of what there is more than one in the data.
   const words = () =>
     ids
-      .filter(id => dimensionValues(dimensions.find(each => each.id === id)).length > 1)
+      .filter(id => valuesOf(data.cases, dimensionNamed(id).of).length > 1)
       .map(id => {
-        const dimension = dimensions.find(each => each.id === id);
-        if (state[id] === worst) return dimension.all;
-        const value = dimensionValues(dimension).find(each => String(each) === state[id]);
-        return `${dimension.label.toLowerCase()} ${dimension.name(value)}`;
+        const dimension = dimensionNamed(id),
+          values = offered[id].filter(value => offered[id].length === 1 || String(value) === state[id]);
+        return values.length ? `${dimension.label.toLowerCase()} ${dimension.name(values[0])}` : dimension.all;
       })
       .join(', ');
-  return {state, controls, cases, words};
+  return {state, controls: Object.values(boxes), cases, words};
 }
 
 const measureOptions = measures => measures.map(measure => [measure.id, `${measure.name} (${measure.unit})`]);
@@ -152,12 +154,12 @@ function series(technique, points, xAxis, yAxis, withLine) {
   };
 }
 
-// A section with a chart: `make(view)` gives {config, label, points, columns}; `extra` are its own choices.
-function plotSection(id, {filterIds, extra = () => [], make, withLine, tableTitle}) {
+// A section with a chart of `items`: `make(view)` gives {config, label, points, columns}; `extra` are its own choices.
+function plotSection(id, {items = data.cases, filterIds, extra = () => [], make, withLine, tableTitle}) {
   const section = sectionOf(id);
   let drawn = null;
   const redraw = () => chart.draw();
-  const filter = makeFilter(id, filterIds, redraw);
+  const filter = makeFilter(id, items, filterIds, redraw);
   const view = {filter, choices: {}};
   const behind = tableBehind('', () =>
     table(drawn?.columns ?? [], drawn?.points ?? [], {
@@ -260,10 +262,6 @@ function makePareto(view) {
     hoverRadius: 0,
     order: 1,
   });
-  const name = point =>
-    [data.variants[point.variant].technique, Object.values(data.variants[point.variant].knobs).join(', ')]
-      .filter(Boolean)
-      .join(' ');
   return {
     label: `${error.name} against ${cost.name}; ${view.filter.words()}`,
     note,
@@ -288,7 +286,7 @@ function makePareto(view) {
         plugins: {
           frontLabels: {
             avoid: points.map(point => ({x: xAxis.place(point.x), y: yAxis.place(point.y)})),
-            points: placed.map(point => ({...point, text: name(point.value)})),
+            points: placed.map(point => ({...point, text: shortName(data.variants[point.value.variant])})),
           },
           tooltip: tooltipOf(raw => [
             variantName(data.variants[raw.value.variant]),
@@ -366,8 +364,10 @@ function makeLines(view, {groups, xName, xOf, error, columns, note}) {
   };
 }
 
-// Which variants are lines: one of each technique by its number of steps, or all of one technique.
+// Which variants are lines: one of each technique by its number of steps, or all of one technique; of a scene all, as
+// each is there for a surface and a target of its own.
 function lineChoices() {
+  if (isPlanned) return [['default', 'all']];
   const options = [
     ['few', 'each technique, with its fewest steps'],
     ['default', 'each technique, with a middle number of steps'],
@@ -376,16 +376,14 @@ function lineChoices() {
   return [...options, ...techniques.map(technique => [`only:${technique}`, `${technique}, all settings`])];
 }
 
-function variantsChosen(value) {
+function variantsChosen(value, cases) {
+  const known = [...new Set(cases.map(item => item.variant))].sort((a, b) => a - b);
+  if (isPlanned) return known;
   if (value.startsWith('only:'))
-    return data.variants
-      .map((_, index) => index)
-      .filter(index => data.variants[index].technique === value.slice(5));
-  return techniques.map(technique => {
+    return known.filter(index => data.variants[index].technique === value.slice(5));
+  return techniques.filter(technique => techniquesIn(cases).includes(technique)).map(technique => {
     const knob = stepsKnob(technique);
-    const own = data.variants
-      .map((_, index) => index)
-      .filter(index => data.variants[index].technique === technique);
+    const own = known.filter(index => data.variants[index].technique === technique);
     own.sort((a, b) => Number(data.variants[a].knobs[knob] ?? 0) - Number(data.variants[b].knobs[knob] ?? 0));
     return own[value === 'few' ? 0 : value === 'many' ? own.length - 1 : Math.floor((own.length - 1) / 2)];
   });
@@ -394,7 +392,7 @@ function variantsChosen(value) {
 function makeElevation(view) {
   const error = measureNamed(errorMeasures, view.choices.error);
   const cases = view.filter.cases();
-  const groups = variantsChosen(view.choices.lines).map(index => ({
+  const groups = variantsChosen(view.choices.lines, cases).map(index => ({
     technique: data.variants[index].technique,
     name: variantName(data.variants[index]),
     cases: cases.filter(item => item.variant === index),
@@ -417,6 +415,15 @@ function makeElevation(view) {
   return made;
 }
 
+// The cases of techniques whose steps vary on the map of the case.
+function casesWithSteps() {
+  const seen = {};
+  const stepsOf = item => at(variantOf(item).knobs, stepsKnob(variantOf(item).technique));
+  const key = item => `${item.map} ${variantOf(item).technique}`;
+  for (const item of data.cases) (seen[key(item)] ??= new Set()).add(stepsOf(item));
+  return data.cases.filter(item => stepsOf(item) != null && seen[key(item)].size > 1);
+}
+
 function makeMissed(view) {
   const error = measureNamed(errorMeasures, 'missed');
   const cases = view.filter.cases();
@@ -428,7 +435,8 @@ function makeMissed(view) {
       cases: cases.filter(
         item => variantOf(item).technique === technique && stepsKnob(technique) in variantOf(item).knobs,
       ),
-    }));
+    }))
+    .filter(group => group.cases.length);
   const stepsOf = item => Number(variantOf(item).knobs[stepsKnob(variantOf(item).technique)]);
   const made = makeLines(view, {
     groups,

@@ -43,7 +43,7 @@ function makePlots() {
       redraw();
     });
   };
-  if (dimensionValues(dimensions.find(each => each.id === 'elevation')).length > 1)
+  if (valuesOf(data.cases, dimensionNamed('elevation').of).length > 1)
     plotSection('elevation', {
       filterIds: rest,
       make: makeElevation,
@@ -59,8 +59,9 @@ function makePlots() {
       absent('All cases were seen from one elevation, so there is no curve to draw.'),
     );
 
-  if (techniques.some(stepsKnob) && measureNamed(errorMeasures, 'missed'))
+  if (casesWithSteps().length && measureNamed(errorMeasures, 'missed'))
     plotSection('missed', {
+      items: casesWithSteps(),
       filterIds: ['map', 'elevation', ...rest.slice(1)],
       make: makeMissed,
       withLine: true,
@@ -70,6 +71,7 @@ function makePlots() {
 
   if (data.cases.some(item => item.split))
     plotSection('split', {
+      items: data.cases.filter(item => item.split),
       filterIds: ['map', 'elevation', ...rest.slice(1)],
       make: makeSplit,
       withLine: false,

@@ -3,7 +3,7 @@
 // One bar for each limited resource.
 function headroomBars(resources) {
   const grid = element('div', {class: 'headroom'});
-  for (const {name, used, limit, title} of resources) {
+  for (const {name, rest, used, limit} of resources) {
     const known = used !== null,
       share = limit > 0 ? used / limit : used > 0 ? 2 : 0,
       left = limit - used,
@@ -12,7 +12,7 @@ function headroomBars(resources) {
       element(
         'div',
         {class: 'limit'},
-        element('span', {title}, name),
+        element('span', {}, name, rest && element('span', {class: 'rest'}, rest)),
         element(
           'span',
           {class: share > 1 ? 'track over' : 'track', role: 'img', 'aria-label': `${known ? used : 'unknown'} of ${limit}`},
@@ -74,7 +74,8 @@ function makeBudget() {
     headroomBars(
       limited.map(({variant}) => {
         const {resource, used, limit} = tightest(variant);
-        return {name: `${variantName(variant)}: ${resource}`, used, limit};
+        const [name, rest] = nameParts(variant);
+        return {name: `${name}: ${resource}`, rest, used, limit};
       }),
     ),
   );
@@ -276,7 +277,7 @@ function makeSplit(view) {
     const total = item => sourcesOfError.reduce((sum, [key]) => sum + (item.split[key] ?? 0), 0);
     rows.push({variant, case: own.reduce((most, item) => (total(item) > total(most) ? item : most))});
   }
-  const chosen = new Set(variantsChosen(view.choices.lines));
+  const chosen = new Set(variantsChosen(view.choices.lines, cases));
   const share = view.choices.unit === 'share';
   // Of a total of nothing there are no shares.
   const shown = (row, key) =>
@@ -308,12 +309,7 @@ function makeSplit(view) {
     config: {
       type: 'bar',
       data: {
-        labels: points.map(row =>
-          [
-            data.variants[row.variant].technique,
-            Object.values(data.variants[row.variant].knobs).join(', '),
-          ].join(' '),
-        ),
+        labels: points.map(row => shortName(data.variants[row.variant])),
         datasets: sourcesOfError.map(([key, colour, name]) => ({
           label: name,
           backgroundColor: css(colour),
@@ -322,10 +318,7 @@ function makeSplit(view) {
           data: points.map(row => ({
             ...row,
             x: shown(row, key),
-            y: [
-              data.variants[row.variant].technique,
-              Object.values(data.variants[row.variant].knobs).join(', '),
-            ].join(' '),
+            y: shortName(data.variants[row.variant]),
           })),
         })),
       },

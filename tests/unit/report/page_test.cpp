@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "src/measure/variant_json.h"
 #include "src/report/base64.h"
 #include "src/report/command.h"
 #include "src/report/front.h"
@@ -217,6 +218,52 @@ TEST(PageData, OfASweepNamesRefusedVariantsAndBadLines) {
     const Result<PageData> cut = page_data_of_sweep(refused.dump() + "\n{\"a\"", "r.jsonl", none);
     ASSERT_FALSE(cut);
     EXPECT_THAT(cut.error().message, HasSubstr("line 2"));
+}
+
+// Two variants that differ in one thing only, whatever it is, are two; each is what its line says,
+// and so are its command and its text.
+TEST(PageData, OfASweepKeepsApartWhatDiffersInAnything) {
+    const dsl::Catalogue catalogue = templates::all_techniques();
+    const Json plain = sweep_line("parallax_occlusion", "4", 30, 1);
+    const std::vector<std::pair<Json, std::string>> changes = {
+        {{{"knobs", {{"taps", "5"}}}}, "-D taps=5"},
+        {{{"target", "hlsl_5_0"}}, "-T hlsl_5_0"},
+        {{{"loops", {{"march", "unroll"}}}}, "--loop march=unroll"},
+        {{{"per_vertex", true}}, "--per-vertex"},
+        {{{"known", {"scale = 0.03"}}}, "--fix scale=0.03"},
+        {{{"known", {"view.z = 0.5..0.75"}}}, "--assume view.z=0.5..0.75"},
+        {{{"scene_surface", "quay"}}, ""}};
+    std::string lines = plain.dump();
+    for (const auto& [change, words] : changes) {
+        Json line = plain;
+        line.update(change);
+        lines += "\n" + line.dump() + "\n" + line.dump();  // seen twice, one variant
+    }
+    Result<PageData> page = page_data_of_sweep(lines + "\n", "r.jsonl", catalogue);
+    ASSERT_TRUE(page) << to_string(page.error());
+    ASSERT_EQ(page->variants.size(), changes.size() + 1);
+    const Status status = add_sources(*page, catalogue);
+    ASSERT_TRUE(status) << to_string(status.error());
+    for (const auto& [change, words] : changes) {
+        Json asked = plain;
+        asked.update(change);
+        const auto& variants = page->json["variants"];
+        const auto found = std::find_if(variants.begin(), variants.end(), [&](const Json& variant) {
+            return variant["emit_command"].get<std::string>().find(words) != std::string::npos &&
+                   variant.contains("scene_surface") == words.empty();
+        });
+        ASSERT_NE(found, variants.end()) << words;
+        const Result<VariantRequest> request = measure::request_of(asked);
+        ASSERT_TRUE(request) << to_string(request.error());
+        const auto index = static_cast<std::size_t>(found - variants.begin());
+        EXPECT_EQ(measure::text_of(page->variants[index]), measure::text_of(*request));
+        const Result<Variant> made = make_variant(catalogue, *request);
+        ASSERT_TRUE(made) << to_string(made.error());
+        const std::string text =
+            page->json["sources"][(*found)["source"].get<std::size_t>()]["text"];
+        EXPECT_EQ(text, product_of(*made, ir::Stage::Pixel)->bytes) << words;
+        EXPECT_EQ(text.find("float scale") == text.npos, words.starts_with("--fix")) << words;
+    }
 }
 
 // Random costs and errors of one class at one elevation, twice each: two maps.
