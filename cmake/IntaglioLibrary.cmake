@@ -50,10 +50,15 @@ else()
   set(intaglio_cold_options -O1)
 endif()
 
-# intaglio_library(NAME SOURCES a.cpp ... [LINKS lib ...] [COLD]): one folder, one static library `intaglio_NAME`.
+# intaglio_library(NAME SOURCES a.cpp ... [LINKS lib ...] [COLD] [SANITIZED_COLD]): one folder, one static library
+# `intaglio_NAME`.
 # COLD: its time does not matter beside that of what it calls, so it is compiled quickly.
+# SANITIZED_COLD: so in sanitized builds, where the optimiser takes more time than the tests then save.
 function(intaglio_library name)
-  cmake_parse_arguments(arg "COLD" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  cmake_parse_arguments(arg "COLD;SANITIZED_COLD" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
+  if(arg_SANITIZED_COLD AND INTAGLIO_SANITIZE)
+    set(arg_COLD ON)
+  endif()
   add_library(intaglio_${name} STATIC ${arg_SOURCES})
   set_property(GLOBAL APPEND PROPERTY intaglio_libraries intaglio_${name})
   target_link_libraries(intaglio_${name} PUBLIC ${arg_LINKS} PRIVATE intaglio_compile_options ${arg_PRIVATE_LINKS})

@@ -301,7 +301,7 @@ const std::vector<Reporting>& flat_round() {
 // one that it reports without making it costs time.
 TEST(Reports, SayWhetherAPassChangedTheModule) {
     int changed = 0, idle = 0;
-    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+    for (std::uint64_t seed = 1; seed <= rounds(150u); ++seed) {
         Module module = random_case(seed);
         compact_values(module);
         for (int round = 0; round < 3; ++round)
@@ -314,12 +314,12 @@ TEST(Reports, SayWhetherAPassChangedTheModule) {
                 ++(reported ? changed : idle);
             }
     }
-    EXPECT_GT(changed, 500);
-    EXPECT_GT(idle, 500);
+    EXPECT_GT(changed, rounds(500));
+    EXPECT_GT(idle, rounds(500));
 }
 
 TEST(Pipeline, IsItsListRepeatedUntilNothingChanges) {
-    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+    for (std::uint64_t seed = 1; seed <= rounds(150u); ++seed) {
         const Module start = random_case(seed);
         Module optimized = start, plain = start;
         optimize_or_fail(optimized, {.unroll_all = true, .flatten_all = true});
