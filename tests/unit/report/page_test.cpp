@@ -244,9 +244,10 @@ TEST(PageData, OfASweepKeepsApartWhatDiffersInAnything) {
     ASSERT_EQ(page->variants.size(), changes.size() + 1);
     const Status status = add_sources(*page, catalogue);
     ASSERT_TRUE(status) << to_string(status.error());
-    for (const auto& [change, words] : changes) {
+    for (const auto& change : changes) {
+        const std::string& words = change.second;
         Json asked = plain;
-        asked.update(change);
+        asked.update(change.first);
         const auto& variants = page->json["variants"];
         const auto found = std::find_if(variants.begin(), variants.end(), [&](const Json& variant) {
             return variant["emit_command"].get<std::string>().find(words) != std::string::npos &&
