@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
 
@@ -109,7 +110,9 @@ void derive_known(SurfaceWork& work) {
         const scene::SurfaceLight& light = surface.lights[work.common.lights[i]];
         // One that sets is not kept above the horizon.
         if (light.elevation.least > 0)
-            add(dsl::name_of_light("light", static_cast<int>(i)), directions_of(light));
+            add(dsl::name_of_light("light", static_cast<int>(i)),
+                {light.elevation.least, light.elevation.most, light.azimuth.least,
+                 light.azimuth.most});
     }
     const vulkan::Texture heights =
         measure::height_texture(surface.map.set, measure::Filtering::Native);
@@ -233,12 +236,19 @@ VariantRequest SurfaceWork::knowing(VariantRequest request, const passes::Known&
 }
 
 VariantRequest SurfaceWork::one_light(VariantRequest request) {
+    // The one stands wherever any that throws shadows does, so what is known of the first holds for
+    // it only where that is the only one.
+    const bool has_others =
+        std::any_of(request.knobs.begin(), request.knobs.end(), [](const auto& knob) {
+            return knob.first == "shadowed_lights" && std::atoi(knob.second.c_str()) > 1;
+        });
     std::erase_if(request.knobs, [](const auto& knob) {
         return knob.first == "lights" || knob.first == "shadowed_lights";
     });
-    const auto of_others = [](const auto& entry) {
-        return entry.first.starts_with("light_") && entry.first.size() > 6 &&
-               std::isdigit(static_cast<unsigned char>(entry.first[6])) != 0;
+    const auto of_others = [&](const auto& entry) {
+        const bool numbered = entry.first.starts_with("light_") && entry.first.size() > 6 &&
+                              std::isdigit(static_cast<unsigned char>(entry.first[6])) != 0;
+        return numbered || (has_others && entry.first.starts_with("light."));
     };
     std::erase_if(request.known.uniforms,
                   [](const auto& entry) { return entry.first.find("light") != std::string::npos; });

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "src/plan/surface_work.h"
 #include "templates/all_techniques.h"
 
 namespace intaglio::plan {
@@ -259,6 +260,23 @@ TEST(Plan, ShadowsOnlyWhereALightCanCastThem) {
     EXPECT_EQ(text_of(noon).find("float visibility"), std::string::npos);
     EXPECT_FALSE(chosen_of(noon).errors.contains("shadow_wrong"));
     EXPECT_TRUE(chosen_of(shadowed).errors.contains("shadow_wrong"));
+}
+
+// Every light that throws shadows is tried as the first: what only that one cannot do is forgotten.
+TEST(Plan, OneLightStandsForAllThatThrowShadows) {
+    VariantRequest request;
+    request.known.ranges = {
+        {"light.z", {0.5f, 0.6f}}, {"light_1.z", {0.1f, 0.2f}}, {"view.z", {0.3f, 1.0f}}};
+    const auto known_with = [&](const char* shadowed) {
+        request.knobs = {{"taps", "4"}, {"lights", "2"}, {"shadowed_lights", shadowed}};
+        const VariantRequest one = SurfaceWork::one_light(request);
+        EXPECT_THAT(one.knobs, testing::ElementsAre(testing::Pair("taps", "4")));
+        std::vector<std::string> names;
+        for (const auto& [name, range] : one.known.ranges) names.push_back(name);
+        return names;
+    };
+    EXPECT_THAT(known_with("1"), testing::ElementsAre("light.z", "view.z"));
+    EXPECT_THAT(known_with("2"), testing::ElementsAre("view.z"));
 }
 
 TEST(Plan, RefusesUnknownNames) {
