@@ -14,14 +14,8 @@ using namespace ir;
 
 // Everything that decides an instruction's result.
 struct Expression {
-    Op op = Op::Constant;
+    Definition what;
     Type type;
-    std::uint8_t operand_count = 0;
-    std::array<ValueId, 4> operands{};
-    std::array<std::uint32_t, 4> bits{};
-    std::array<std::uint8_t, 4> lanes{};
-    int slot = 0;
-    int element = 0;
     friend bool operator==(const Expression&, const Expression&) = default;
 };
 
@@ -31,15 +25,15 @@ std::uint64_t hash_of(const Expression& expression) {
         hash = (hash ^ (high << 32) ^ low) * 0x9e3779b97f4a7c15ull;
         hash ^= hash >> 29;
     };
-    const auto& [a, b, c, d] = expression.operands;
-    const auto& [x, y, z, w] = expression.bits;
+    const Definition& what = expression.what;
+    const auto& [a, b, c, d] = what.operands;
+    const auto& [x, y, z, w] = what.bits;
     mix(index_of(a), index_of(b));
     mix(index_of(c), index_of(d));
     mix(x, y);
     mix(z, w);
-    mix(std::bit_cast<std::uint32_t>(expression.lanes), static_cast<std::uint32_t>(expression.op));
-    mix(static_cast<std::uint32_t>(expression.slot),
-        static_cast<std::uint32_t>(expression.element));
+    mix(std::bit_cast<std::uint32_t>(what.lanes), static_cast<std::uint32_t>(what.op));
+    mix(static_cast<std::uint32_t>(what.slot), static_cast<std::uint32_t>(what.element));
     return hash;
 }
 
@@ -95,24 +89,14 @@ bool is_commutative(Op op) {
 
 // The same expression in one spelling.
 Expression canonical(const Module& module, const Instruction& instruction) {
-    Expression expression;
-    expression.op = instruction.op;
-    expression.type = module.type(instruction.result());
-    expression.operand_count = static_cast<std::uint8_t>(instruction.operands.size());
-    std::copy(instruction.operands.begin(), instruction.operands.end(),
-              expression.operands.begin());
-    expression.bits = instruction.bits;
-    expression.lanes = instruction.lanes;
-    expression.slot = instruction.slot;
-    expression.element = instruction.element;
-    const bool turned = instruction.op == Op::Greater || instruction.op == Op::GreaterEqual;
-    if (instruction.op == Op::Greater) expression.op = Op::Less;
-    if (instruction.op == Op::GreaterEqual) expression.op = Op::LessEqual;
-    if (turned) std::swap(expression.operands[0], expression.operands[1]);
-    if (is_commutative(instruction.op))
-        std::sort(expression.operands.begin(),
-                  expression.operands.begin() + expression.operand_count);
-    return expression;
+    Definition what = definition_of(instruction);
+    const bool turned = what.op == Op::Greater || what.op == Op::GreaterEqual;
+    if (what.op == Op::Greater) what.op = Op::Less;
+    if (instruction.op == Op::GreaterEqual) what.op = Op::LessEqual;
+    if (turned) std::swap(what.operands[0], what.operands[1]);
+    if (is_commutative(what.op))
+        std::sort(what.operands.begin(), what.operands.begin() + what.operand_count);
+    return {what, module.type(instruction.result())};
 }
 
 class Merger {

@@ -75,14 +75,8 @@ Instruction Cloner::clone(const Instruction& instruction) {
     return copy;
 }
 
-void Definitions::record(const Instruction& instruction) {
-    if (has_regions(instruction.op) || instruction.results.size() != 1 ||
-        instruction.operands.size() > 4)
-        return;
-    const std::size_t index = index_of(instruction.result());
-    if (definitions_.size() <= index)
-        definitions_.resize(std::max(index + 1, definitions_.size() * 2));
-    Definition& definition = definitions_[index];
+Definition definition_of(const Instruction& instruction) {
+    Definition definition;
     definition.op = instruction.op;
     definition.operand_count = static_cast<std::uint8_t>(instruction.operands.size());
     std::copy(instruction.operands.begin(), instruction.operands.end(),
@@ -91,6 +85,17 @@ void Definitions::record(const Instruction& instruction) {
     definition.lanes = instruction.lanes;
     definition.slot = instruction.slot;
     definition.element = instruction.element;
+    return definition;
+}
+
+void Definitions::record(const Instruction& instruction) {
+    if (has_regions(instruction.op) || instruction.results.size() != 1 ||
+        instruction.operands.size() > 4)
+        return;
+    const std::size_t index = index_of(instruction.result());
+    if (definitions_.size() <= index)
+        definitions_.resize(std::max(index + 1, definitions_.size() * 2));
+    definitions_[index] = definition_of(instruction);
 }
 
 const Definition& Definitions::operator[](ValueId value) const {

@@ -64,7 +64,10 @@ struct Definition {
     int element = 0;
 
     std::span<const ir::ValueId> operand_span() const { return {operands.data(), operand_count}; }
+    friend bool operator==(const Definition&, const Definition&) = default;
 };
+// Of an instruction with one result and four operands at most.
+Definition definition_of(const ir::Instruction& instruction);
 
 // The definitions seen so far, by value.
 class Definitions {

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <set>
 
 #include <fmt/format.h>
 
 #include "generator/base/text.h"
+#include "src/scene/words_of_cpp.h"
 
 namespace intaglio::build {
 namespace {
@@ -17,22 +17,9 @@ namespace {
 // Compilers need not take longer literals, and clang says so.
 constexpr std::size_t longest_literal = 60000;
 
-bool is_keyword(std::string_view word) {
-    static const std::set<std::string_view> words = {
-        "alignas",   "alignof",  "and",      "asm",      "auto",     "bool",      "break",
-        "case",      "catch",    "char",     "class",    "const",    "constexpr", "continue",
-        "decltype",  "default",  "delete",   "do",       "double",   "else",      "enum",
-        "explicit",  "export",   "extern",   "false",    "float",    "for",       "friend",
-        "goto",      "if",       "inline",   "int",      "long",     "mutable",   "namespace",
-        "new",       "noexcept", "not",      "nullptr",  "operator", "or",        "private",
-        "protected", "public",   "register", "requires", "return",   "short",     "signed",
-        "sizeof",    "static",   "struct",   "switch",   "template", "this",      "throw",
-        "true",      "try",      "typedef",  "typename", "union",    "unsigned",  "using",
-        "virtual",   "void",     "volatile", "while",    "xor",      "concept"};
-    return words.contains(word);
+std::string identifier(const std::string& name) {
+    return scene::is_word_of_cpp(name) ? name + "_" : name;
 }
-
-std::string identifier(const std::string& name) { return is_keyword(name) ? name + "_" : name; }
 
 // A literal that means the same to every compiler: octal escapes end by themselves, and no two
 // question marks meet.
@@ -342,7 +329,7 @@ bool is_namespace(std::string_view text) {
     while (!text.empty()) {
         const std::size_t colons = text.find("::");
         const std::string_view part = text.substr(0, colons);
-        if (!is_surface_name(part) || is_keyword(part)) return false;
+        if (!is_surface_name(part) || scene::is_word_of_cpp(part)) return false;
         if (colons == std::string_view::npos) return true;
         text.remove_prefix(colons + 2);
         if (text.empty()) return false;

@@ -217,7 +217,9 @@ Status Chooser::judge(Pair& pair) {
     if (!price) return price.error();
     candidate.judged = true;
     // What is too long for a pixel stage may fit when the vertex stage does its part.
-    if (straight() && !price->refusal.empty() && !candidate.request.per_vertex) {
+    const bool too_long =
+        price->refusal_code == "d3d9-limit" || price->refusal_code == "target-limit";
+    if (straight() && too_long && !candidate.request.per_vertex) {
         const VariantRequest lighter = request(pair, {false, true});
         Result<Trial> other = work_.price(lighter);
         if (!other) return other.error();

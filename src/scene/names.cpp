@@ -7,42 +7,10 @@
 #include <string>
 
 #include "generator/base/nearest.h"
+#include "src/scene/words_of_cpp.h"
 
 namespace intaglio::scene {
 namespace {
-
-// A struct of this name would not compile.
-constexpr std::string_view words_of_cpp[] = {"alignas",       "alignof",     "and",
-                                             "and_eq",        "asm",         "auto",
-                                             "bitand",        "bitor",       "bool",
-                                             "break",         "case",        "catch",
-                                             "char",          "char16_t",    "char32_t",
-                                             "char8_t",       "class",       "co_await",
-                                             "co_return",     "co_yield",    "compl",
-                                             "concept",       "const",       "const_cast",
-                                             "consteval",     "constexpr",   "constinit",
-                                             "continue",      "decltype",    "default",
-                                             "delete",        "do",          "double",
-                                             "dynamic_cast",  "else",        "enum",
-                                             "explicit",      "export",      "extern",
-                                             "false",         "float",       "for",
-                                             "friend",        "goto",        "if",
-                                             "inline",        "int",         "long",
-                                             "mutable",       "namespace",   "new",
-                                             "noexcept",      "not",         "not_eq",
-                                             "nullptr",       "operator",    "or",
-                                             "or_eq",         "private",     "protected",
-                                             "public",        "register",    "reinterpret_cast",
-                                             "requires",      "return",      "short",
-                                             "signed",        "sizeof",      "static",
-                                             "static_assert", "static_cast", "struct",
-                                             "switch",        "template",    "this",
-                                             "thread_local",  "throw",       "true",
-                                             "try",           "typedef",     "typeid",
-                                             "typename",      "union",       "unsigned",
-                                             "using",         "virtual",     "void",
-                                             "volatile",      "wchar_t",     "while",
-                                             "xor",           "xor_eq"};
 
 // Names of the language's own headers (NAME.h would be found in their place), of what they define
 // as macros or what a program has, and of Windows' devices (which no file can have).  In lower
@@ -119,7 +87,7 @@ std::string wrong_identifier(const std::string& name) {
             "'{}' must be letters, digits and underscores, no digit first: it names files and C++ "
             "types",
             name);
-    if (std::find(std::begin(words_of_cpp), std::end(words_of_cpp), name) != std::end(words_of_cpp))
+    if (is_word_of_cpp(name))
         return fmt::format("'{}' is a word of C++, and types are named after it", name);
     return {};
 }
